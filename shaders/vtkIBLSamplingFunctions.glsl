@@ -1,0 +1,44 @@
+// Sample points and the distributions they are warped to. A sampler states its density.
+
+// Point i of n of the Hammersley set, centred: (i + 1/2)/n keeps the spike at 0 away. Below 1 for any i < 2^24.
+vec2 iblHammersley(uint i, uint n)
+{
+  return vec2((float(i) + 0.5) / float(n), float(bitfieldReverse(i)) * 2.3283064365386962890625e-10);
+}
+
+// cos^2 and sin^2 of the angle between normal and half vector, drawn from D_GGX(h) NoH [1/sr] (Walter et al. 2007, eq. 35).
+// Both from u, so that neither is one minus the other: at alpha = 1e-3 that would leave no digits.
+vec2 iblHalfVectorGGX(float u, float alpha)
+{
+  float a2u = alpha * alpha * u;
+  float scale = 1.0 / (1.0 - u + a2u);
+  return vec2((1.0 - u) * scale, a2u * scale);
+}
+
+// A visible half vector for view direction V in the tangent frame (N = +z): density G1(V) D(h) VoH / NoV [1/sr], by spherical
+// caps (Dupuy & Benyoub 2023, listing 3).
+vec3 iblVisibleHalfVectorGGX(vec2 u, vec3 V, float alpha)
+{
+  vec3 stretched = normalize(vec3(alpha * V.x, alpha * V.y, V.z));
+  float phi = 2.0 * iblPi * u.x;
+  float z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
+  float sine = sqrt(clamp(1.0 - z * z, 0.0, 1.0));
+  vec3 h = vec3(sine * cos(phi), sine * sin(phi), z) + stretched;
+  return normalize(vec3(alpha * h.x, alpha * h.y, max(h.z, 1e-9)));
+}
+
+// Tangent frame with N as its third column (Duff et al. 2017): no branch at the poles but the sign.
+mat3 iblTangentFrame(vec3 N)
+{
+  float side = N.z >= 0.0 ? 1.0 : -1.0;
+  float a = -1.0 / (side + N.z);
+  float b = N.x * N.y * a;
+  return mat3(vec3(1.0 + side * N.x * N.x * a, side * b, -side * N.x), vec3(b, side + N.y * N.y * a, -N.y), N);
+}
+
+// Mip level of a cube map of faceSize^2 whose texels have the solid angle that one of sampleCount samples of density pdf [1/sr]
+// stands for (Colbert & Krivanek 2007, GPU Gems 3, eq. 11; texels taken as equal, 4 pi / 6 n^2). Not clamped.
+float iblFilteredLod(float pdf, float sampleCount, float faceSize)
+{
+  return 0.5 * log2(6.0 * faceSize * faceSize / (4.0 * iblPi * sampleCount * pdf));
+}
