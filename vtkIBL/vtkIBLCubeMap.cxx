@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: Copyright (c) vtkIBL authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkIBLCubeMap.h"
+
+#include "vtkIBLEnvironment.h"
+#include "vtkIBLGL.h"
+#include "vtkIBLRadianceImage.h"
+
+#include "vtkImageData.h"
+#include "vtkObjectFactory.h"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+vtkStandardNewMacro(vtkIBLCubeMap);
+
+struct vtkIBLCubeMap::Internals
+{
+  vtkIBLGL::Texture Cube;
+  vtkIBLGL::Program EquirectToCube;
+  vtkIBLGL::Program Resample;
+};
+
+namespace
+{
+int FloorPowerOfTwo(int n)
+{
+  int power = 1;
+  while (2 * power <= n)
+  {
+    power *= 2;
+  }
+  return power;
+}
+
+int CountLevels(int faceSize)
+{
+  int levels = 1;
+  for (; faceSize > 1; faceSize /= 2)
+  {
+    ++levels;
+  }
+  return levels;
+}
+
+int ChooseFaceSize(int wanted, const vtkIBLRadianceImage& radiance)
+{
+  constexpr int least = 16;
+  constexpr int largestByDefault = 512;
+  // At a face's centre a texel spans 2/n radians; one of the image 2 pi/W. W/4 is the power of two that keeps its detail.
+  const int own = radiance.Faces == 6 ? radiance.Width : radiance.Width / 4;
+  return std::max(FloorPowerOfTwo(wanted > 0 ? wanted : std::min(own, largestByDefault)), least);
+}
+
+void Upload(const vtkIBLGL::Texture& texture, const vtkIBLRadianceImage& radiance)
+{
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4); // rows of three floats are always so aligned; VTK's cache has 1 or 4 here, either will do
+  if (radiance.Faces == 6)
+  {
+    glTextureSubImage3D(texture.Id(), 0, 0, 0, 0, radiance.Width, radiance.Height, 6, GL_RGB, GL_FLOAT, radiance.RGB);
+  }
+  else
+  {
+    glTextureSubImage2D(texture.Id(), 0, 0, 0, radiance.Width, radiance.Height, GL_RGB, GL_FLOAT, radiance.RGB);
+  }
+  vtkIBLGL::CheckErrors("uploading the environment");
+}
+
+void RequireTextureSize(const vtkIBLRadianceImage& radiance)
+{
+  GLint largest = 0;
+  glGetIntegerv(radiance.Faces == 6 ? GL_MAX_CUBE_MAP_TEXTURE_SIZE : GL_MAX_TEXTURE_SIZE, &largest);
+  if (radiance.Width > largest || radiance.Height > largest)
+  {
+    std::ostringstream words;
+    words << "the environment is " << radiance.Width << "x" << radiance.Height << ", and this GPU takes textures up to " << largest
+          << "; lower vtkIBLEnvironment's MaximumWidth";
+    throw std::runtime_error(words.str());
+  }
+}
+}
+
+vtkIBLCubeMap::vtkIBLCubeMap()
+  : Internal(new Internals)
+{
+}
+
+vtkIBLCubeMap::~vtkIBLCubeMap() = default;
+
+void vtkIBLCubeMap::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Environment: " << this->Environment.Get() << "\n"
+     << indent << "FaceSize: " << this->FaceSize << "\n"
+     << indent << "OutputFaceSize: " << this->OutputFaceSize << "\n"
+     << indent << "MeanLuminance: " << this->MeanLuminance << "\n";
+}
+
+void vtkIBLCubeMap::SetEnvironment(vtkIBLEnvironment* environment)
+{
+  if (this->Environment != environment)
+  {
+    this->Environment = environment;
+    this->Modified();
+  }
+}
+
+vtkIBLEnvironment* vtkIBLCubeMap::GetEnvironment() const
+{
+  return this->Environment;
+}
+
+int vtkIBLCubeMap::GetNumberOfLevels() const
+{
+  return this->OutputFaceSize > 0 ? CountLevels(this->OutputFaceSize) : 0;
+}
+
+const vtkIBLGL::Texture& vtkIBLCubeMap::GetTexture() const
+{
+  return this->Internal->Cube;
+}
+
+bool vtkIBLCubeMap::UpdateInput(vtkOpenGLRenderWindow*, vtkMTimeType& inputTime)
+{
+  if (!this->Environment || !this->Environment->Update())
+  {
+    return false;
+  }
+  inputTime = this->Environment->GetRadianceTime();
+  return true;
+}
+
+vtkTypeInt64 vtkIBLCubeMap::Build(vtkOpenGLRenderWindow* window)
+{
+  using namespace vtkIBLGL;
+  const vtkIBLRadianceImage radiance = this->Environment->GetRadiance();
+  const int faceSize = ChooseFaceSize(this->FaceSize, radiance);
+  const int levels = CountLevels(faceSize);
+  RequireTextureSize(radiance);
+
+  Internals& gl = *this->Internal;
+  if (!gl.Resample)
+  {
+    gl.EquirectToCube = Program::Compute(window, "vtkIBLEquirectToCubeCS.glsl");
+    gl.Resample = Program::Compute(window, "vtkIBLCubeResampleCS.glsl");
+  }
+  Texture cube = Texture::Cube(window, faceSize, levels, GL_RGBA32F);
+  auto resample = [&](const Texture& source, int sourceLevel, int level) {
+    ActiveProgram active(window, gl.Resample);
+    BoundImage target(0, cube, level, GL_WRITE_ONLY, GL_RGBA32F);
+    BoundImage origin(1, source, sourceLevel, GL_READ_ONLY, GL_RGBA32F);
+    DispatchTiles(faceSize >> level, 6);
+  };
+
+  if (radiance.Faces == 6)
+  {
+    const Texture faces = Texture::Cube(window, radiance.Width, 1, GL_RGBA32F);
+    Upload(faces, radiance);
+    resample(faces, 0, 0);
+  }
+  else
+  {
+    const Texture image = Texture::Image2D(window, radiance.Width, radiance.Height, GL_RGB32F);
+    Upload(image, radiance);
+    BoundTexture bound(window, image);
+    gl.EquirectToCube.Set("image", bound.GetUnit());
+    ActiveProgram active(window, gl.EquirectToCube);
+    BoundImage target(0, cube, 0, GL_WRITE_ONLY, GL_RGBA32F);
+    DispatchTiles(faceSize, 6);
+  }
+  for (int level = 1; level < levels; ++level)
+  {
+    resample(cube, level - 1, level);
+  }
+
+  gl.Cube = std::move(cube);
+  this->OutputFaceSize = faceSize;
+  this->MeanLuminance = this->Environment->GetMeanLuminance();
+  return vtkTypeInt64(8) * faceSize * faceSize; // six faces, and a third more for the levels
+}
+
+void vtkIBLCubeMap::Release()
+{
+  *this->Internal = Internals();
+  this->OutputFaceSize = 0;
+}
+
+vtkSmartPointer<vtkImageData> vtkIBLCubeMap::ReadLevel(int level)
+{
+  if (level < 0 || level >= this->GetNumberOfLevels())
+  {
+    vtkErrorMacro("There is no mip level " << level << "; the cube map has " << this->GetNumberOfLevels() << ". Call Update() first.");
+    return nullptr;
+  }
+  return this->Internal->Cube.Read(level);
+}

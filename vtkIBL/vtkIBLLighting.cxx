@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: Copyright (c) vtkIBL authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkIBLLighting.h"
+
+#include "vtkIBLBRDFTable.h"
+#include "vtkIBLCubeMap.h"
+#include "vtkIBLEnvironment.h"
+#include "vtkIBLGL.h"
+#include "vtkIBLIrradiance.h"
+#include "vtkIBLSpecularChain.h"
+
+#include "vtkCamera.h"
+#include "vtkMath.h"
+#include "vtkMatrix4x4.h"
+#include "vtkObjectFactory.h"
+#include "vtkRenderer.h"
+#include "vtkShaderProgram.h"
+
+vtkStandardNewMacro(vtkIBLLighting);
+
+struct vtkIBLLighting::Bindings
+{
+  Bindings(vtkOpenGLRenderWindow* window, const vtkIBLSpecularChain& chain, const vtkIBLBRDFTable& table)
+    : EvenLayers(window, chain.GetEvenLayers())
+    , OddLayers(window, chain.GetOddLayers())
+    , Table(window, table.GetTexture())
+  {
+  }
+  vtkIBLGL::BoundTexture EvenLayers;
+  vtkIBLGL::BoundTexture OddLayers;
+  vtkIBLGL::BoundTexture Table;
+};
+
+vtkIBLLighting::vtkIBLLighting()
+{
+  this->Irradiance->SetCubeMap(this->CubeMap);
+  this->SpecularChain->SetCubeMap(this->CubeMap);
+  this->SetEnvironment(nullptr);
+}
+
+vtkIBLLighting::~vtkIBLLighting() = default;
+
+void vtkIBLLighting::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "EnergyCompensation: " << this->EnergyCompensation << "\n";
+  for (vtkIBLStage* stage : { static_cast<vtkIBLStage*>(this->CubeMap), static_cast<vtkIBLStage*>(this->Irradiance),
+         static_cast<vtkIBLStage*>(this->SpecularChain), static_cast<vtkIBLStage*>(this->BRDFTable) })
+  {
+    os << indent << stage->GetClassName() << ":\n";
+    stage->PrintSelf(os, indent.GetNextIndent());
+  }
+}
+
+void vtkIBLLighting::SetEnvironment(vtkIBLEnvironment* environment)
+{
+  vtkNew<vtkIBLEnvironment> studio;
+  this->CubeMap->SetEnvironment(environment ? environment : studio);
+  this->Modified();
+}
+
+vtkIBLEnvironment* vtkIBLLighting::GetEnvironment() const
+{
+  return this->CubeMap->GetEnvironment();
+}
+
+vtkIBLCubeMap* vtkIBLLighting::GetCubeMap() const
+{
+  return this->CubeMap;
+}
+
+vtkIBLIrradiance* vtkIBLLighting::GetIrradiance() const
+{
+  return this->Irradiance;
+}
+
+vtkIBLSpecularChain* vtkIBLLighting::GetSpecularChain() const
+{
+  return this->SpecularChain;
+}
+
+vtkIBLBRDFTable* vtkIBLLighting::GetBRDFTable() const
+{
+  return this->BRDFTable;
+}
+
+bool vtkIBLLighting::Update(vtkOpenGLRenderWindow* window)
+{
+  return this->BRDFTable->Update(window) && this->Irradiance->Update(window) && this->SpecularChain->Update(window);
+}
+
+void vtkIBLLighting::ReleaseGraphicsResources(vtkWindow* window)
+{
+  this->Deactivate();
+  this->SpecularChain->ReleaseGraphicsResources(window);
+  this->Irradiance->ReleaseGraphicsResources(window);
+  this->BRDFTable->ReleaseGraphicsResources(window);
+  this->CubeMap->ReleaseGraphicsResources(window);
+}
+
+void vtkIBLLighting::Activate(vtkOpenGLRenderWindow* window)
+{
+  this->Bound = std::make_unique<Bindings>(window, *this->SpecularChain, *this->BRDFTable);
+}
+
+void vtkIBLLighting::Deactivate()
+{
+  this->Bound = nullptr;
+}
+
+void vtkIBLLighting::GetEnvironmentFromView(vtkRenderer* renderer, float rows[9])
+{
+  double environmentFromWorld[3][3];
+  this->GetEnvironment()->GetEnvironmentFromWorld(&environmentFromWorld[0][0]);
+  // Light has no place here, only a direction; so the camera's rotation is all that counts, whatever user transform scales it.
+  vtkMatrix4x4* viewFromWorld = renderer->GetActiveCamera()->GetModelViewTransformMatrix();
+  double linear[3][3];
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      linear[i][j] = viewFromWorld->GetElement(i, j);
+    }
+  }
+  double worldFromView[3][3];
+  vtkMath::Invert3x3(linear, worldFromView);
+  vtkMath::Multiply3x3(environmentFromWorld, worldFromView, linear);
+  for (int i = 0; i < 9; ++i)
+  {
+    rows[i] = static_cast<float>(linear[i / 3][i % 3]);
+  }
+}
+
+void vtkIBLLighting::SetShaderParameters(vtkShaderProgram* program, vtkRenderer* renderer)
+{
+  program->SetUniformi("iblEvenLayers", this->Bound->EvenLayers.GetUnit());
+  program->SetUniformi("iblOddLayers", this->Bound->OddLayers.GetUnit());
+  program->SetUniformi("iblBRDFTable", this->Bound->Table.GetUnit());
+
+  float rows[9];
+  this->GetEnvironmentFromView(renderer, rows);
+  float columns[9];
+  for (int i = 0; i < 9; ++i)
+  {
+    columns[3 * (i % 3) + i / 3] = rows[i];
+  }
+  program->SetUniformMatrix3x3("iblEnvironmentFromView", columns);
+
+  const double stored = this->SpecularChain->GetStoredScale();
+  float irradiance[9][3];
+  this->Irradiance->GetPolynomial(irradiance);
+  for (auto& factor : irradiance)
+  {
+    for (float& x : factor)
+    {
+      x = static_cast<float>(x / stored);
+    }
+  }
+  program->SetUniform3fv("iblIrradiance", 9, irradiance);
+
+  double rgb[3];
+  this->GetEnvironment()->GetRadianceScale(rgb);
+  const float scale[3] = { float(rgb[0] * stored), float(rgb[1] * stored), float(rgb[2] * stored) };
+  program->SetUniform3f("iblRadianceScale", scale);
+  program->SetUniformi("iblParallelProjection", renderer->GetActiveCamera()->GetParallelProjection());
+  program->SetUniformi("iblEnergyCompensation", this->EnergyCompensation);
+}

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: Copyright (c) vtkIBL authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkIBLLighting
+ * @brief an environment's light, ready for shading: the stages of the pipeline and how a shader reads them
+ *
+ * Owns one cube map, irradiance, specular chain and BRDF table, brings them up to date for a window, and hands them to shader programs. What the
+ * stages cost can be read from them.
+ */
+#ifndef vtkIBLLighting_h
+#define vtkIBLLighting_h
+
+#include "vtkIBLModule.h" // For export macro
+#include "vtkNew.h"
+#include "vtkObject.h"
+
+#include <memory> // For std::unique_ptr
+
+class vtkIBLBRDFTable;
+class vtkIBLCubeMap;
+class vtkIBLEnvironment;
+class vtkIBLIrradiance;
+class vtkIBLSpecularChain;
+class vtkOpenGLRenderWindow;
+class vtkRenderer;
+class vtkShaderProgram;
+class vtkWindow;
+
+class VTKIBL_EXPORT vtkIBLLighting : public vtkObject
+{
+public:
+  static vtkIBLLighting* New();
+  vtkTypeMacro(vtkIBLLighting, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The light. Default: a new vtkIBLEnvironment, the built-in studio. Never null: setting null goes back to that.
+   */
+  void SetEnvironment(vtkIBLEnvironment* environment);
+  vtkIBLEnvironment* GetEnvironment() const;
+  ///@}
+
+  ///@{
+  /**
+   * The stages, to set them up or to read what they made.
+   */
+  vtkIBLCubeMap* GetCubeMap() const;
+  vtkIBLIrradiance* GetIrradiance() const;
+  vtkIBLSpecularChain* GetSpecularChain() const;
+  vtkIBLBRDFTable* GetBRDFTable() const;
+  ///@}
+
+  ///@{
+  /**
+   * Give back the light that rough surfaces lose in a single-scattering model (Fdez-Aguera 2019): white stays white at any roughness. Default on.
+   * Off is the plain split sum, in which a white metal of roughness 1 reflects 31 % at normal incidence.
+   */
+  vtkSetMacro(EnergyCompensation, bool);
+  vtkGetMacro(EnergyCompensation, bool);
+  vtkBooleanMacro(EnergyCompensation, bool);
+  ///@}
+
+  /**
+   * Brings all stages up to date in `window`. Returns whether there is light to shade with, be it an older one.
+   */
+  bool Update(vtkOpenGLRenderWindow* window);
+
+  ///@{
+  /**
+   * Between these two the textures are bound to units of their own, and SetShaderParameters() gives a program that contains
+   * vtkIBLLighting.glsl all it needs to shade what `renderer`'s camera sees.
+   */
+  void Activate(vtkOpenGLRenderWindow* window);
+  void Deactivate();
+  void SetShaderParameters(vtkShaderProgram* program, vtkRenderer* renderer);
+  ///@}
+
+  /**
+   * Drops all GL objects.
+   */
+  void ReleaseGraphicsResources(vtkWindow* window);
+
+  /**
+   * Rotation from `renderer`'s view space to the environment's, row by row.
+   */
+  void GetEnvironmentFromView(vtkRenderer* renderer, float rows[9]);
+
+protected:
+  vtkIBLLighting();
+  ~vtkIBLLighting() override;
+
+private:
+  vtkIBLLighting(const vtkIBLLighting&) = delete;
+  void operator=(const vtkIBLLighting&) = delete;
+
+  struct Bindings;
+  std::unique_ptr<Bindings> Bound;
+  vtkNew<vtkIBLCubeMap> CubeMap;
+  vtkNew<vtkIBLIrradiance> Irradiance;
+  vtkNew<vtkIBLSpecularChain> SpecularChain;
+  vtkNew<vtkIBLBRDFTable> BRDFTable;
+  bool EnergyCompensation = true;
+};
+
+#endif

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: Copyright (c) vtkIBL authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkIBLRenderPass
+ * @brief lights a renderer's PBR actors with an environment
+ *
+ *     vtkNew<vtkIBLEnvironment> environment;  environment->SetFileName("studio.exr");
+ *     vtkNew<vtkIBLRenderPass> ibl;           ibl->SetEnvironment(environment);
+ *     renderer->SetPass(ibl);
+ *
+ * Adds diffuse and specular environment light to actors whose interpolation is PBR, beside VTK's own direct lights, textures, normal maps, emission,
+ * occlusion, scalar colours, opacity, depth peeling, clipping and picking, which stay as they are. With no environment given, a built-in studio
+ * lights the scene. A scene without lights needs none: while this pass renders, VTK makes no headlight of its own.
+ *
+ * Leave vtkRenderer's UseImageBasedLighting off, or the actors get the environment twice.
+ *
+ * Needs OpenGL 4.5. Where there is less, one error says so, and the scene shows with VTK's own lights.
+ */
+#ifndef vtkIBLRenderPass_h
+#define vtkIBLRenderPass_h
+
+#include "vtkIBLModule.h" // For export macro
+#include "vtkNew.h"
+#include "vtkOpenGLRenderPass.h"
+#include "vtkSmartPointer.h"
+
+class vtkIBLBackground;
+class vtkIBLEnvironment;
+class vtkIBLLighting;
+class vtkImageData;
+class vtkLight;
+
+class VTKIBL_EXPORT vtkIBLRenderPass : public vtkOpenGLRenderPass
+{
+public:
+  static vtkIBLRenderPass* New();
+  vtkTypeMacro(vtkIBLRenderPass, vtkOpenGLRenderPass);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The light. Default, and after null: a vtkIBLEnvironment with the built-in studio.
+   */
+  void SetEnvironment(vtkIBLEnvironment* environment);
+  vtkIBLEnvironment* GetEnvironment();
+  ///@}
+
+  /**
+   * The stages behind the picture, with their settings and what they cost.
+   */
+  vtkIBLLighting* GetLighting();
+
+  ///@{
+  /**
+   * Show the environment behind the scene. Default off: the renderer's own background. Lighting is the same either way.
+   */
+  vtkSetMacro(BackgroundVisible, bool);
+  vtkGetMacro(BackgroundVisible, bool);
+  vtkBooleanMacro(BackgroundVisible, bool);
+  ///@}
+
+  ///@{
+  /**
+   * How blurred that background is, in [0, 1]: as a mirror of that perceptualRoughness shows it. Default 0, sharp.
+   */
+  vtkSetClampMacro(BackgroundBlur, double, 0.0, 1.0);
+  vtkGetMacro(BackgroundBlur, double);
+  ///@}
+
+  enum OutputEncodings
+  {
+    Display, ///< VTK's own: PBR surfaces end with the power 1/2.2; what a screen expects. The default.
+    Linear   ///< radiance as it is: for float framebuffers, tone mapping, measurement
+  };
+  ///@{
+  /**
+   * What numbers lit surfaces and the background write.
+   */
+  void SetOutputEncoding(int encoding);
+  vtkGetMacro(OutputEncoding, int);
+  ///@}
+
+  ///@{
+  /**
+   * The pass that draws the scene, vtkSSAOPass or a vtkRenderStepsPass, say. Null, the default: as a renderer without a pass draws.
+   */
+  void SetDelegatePass(vtkRenderPass* pass);
+  vtkRenderPass* GetDelegatePass();
+  ///@}
+
+  /**
+   * Renders `renderer`'s window once, through a float framebuffer and with linear encoding, and returns what `renderer` shows: width x height x 1 float
+   * RGBA, row 0 at the bottom. `renderer`'s pass must be this one.
+   */
+  vtkSmartPointer<vtkImageData> CaptureRadiance(vtkRenderer* renderer);
+
+  void Render(const vtkRenderState* state) override;
+  void ReleaseGraphicsResources(vtkWindow* window) override;
+
+  ///@{
+  /**
+   * vtkOpenGLRenderPass's hooks: the environment's term goes into the fragment shaders of lit PBR actors.
+   */
+  bool PostReplaceShaderValues(std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* mapper,
+    vtkProp* prop) override;
+  bool SetShaderParameters(
+    vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop, vtkOpenGLVertexArrayObject* VAO = nullptr) override;
+  vtkMTimeType GetShaderStageMTime() override;
+  ///@}
+
+protected:
+  vtkIBLRenderPass();
+  ~vtkIBLRenderPass() override;
+
+private:
+  vtkIBLRenderPass(const vtkIBLRenderPass&) = delete;
+  void operator=(const vtkIBLRenderPass&) = delete;
+
+  void RenderScene(const vtkRenderState* state);
+
+  vtkNew<vtkIBLLighting> Lighting;
+  vtkNew<vtkIBLBackground> Background;
+  vtkNew<vtkLight> NoLight;
+  vtkSmartPointer<vtkRenderPass> DelegatePass;
+  bool BackgroundVisible = false;
+  double BackgroundBlur = 0.0;
+  int OutputEncoding = Display;
+  bool Lit = false;              // there is light to add in this frame
+  vtkRenderer* Renderer = nullptr; // while Render runs
+  vtkTimeStamp ShaderTime;       // when the GLSL that the hooks write last changed
+};
+
+#endif

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: Copyright (c) vtkIBL authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkIBLStage.h"
+
+#include "vtkIBLGL.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+void vtkIBLStage::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfBuilds: " << this->NumberOfBuilds << "\n"
+     << indent << "LastBuildSeconds: " << this->LastBuildSeconds << "\n"
+     << indent << "LastBuildTexels: " << this->LastBuildTexels << "\n";
+}
+
+vtkMTimeType vtkIBLStage::GetBuildTime() const
+{
+  return this->BuildTime.GetMTime();
+}
+
+bool vtkIBLStage::Update(vtkOpenGLRenderWindow* window)
+{
+  if (window != this->Window || window->GetContextCreationTime() != this->ContextTime)
+  {
+    this->ReleaseGraphicsResources(this->Window);
+    this->Window = window;
+    this->ContextTime = window->GetContextCreationTime();
+  }
+  vtkMTimeType inputTime = 0;
+  if (!this->UpdateInput(window, inputTime))
+  {
+    return this->GetBuildTime() > 0;
+  }
+  // An attempt that failed is not repeated until something changed: one error, not one a frame.
+  if (std::max(inputTime, this->GetMTime()) > this->AttemptTime.GetMTime())
+  {
+    this->AttemptTime.Modified();
+    try
+    {
+      const auto start = std::chrono::steady_clock::now();
+      window->MakeCurrent();
+      while (glGetError() != GL_NO_ERROR) // somebody else's, and not to be reported as ours
+      {
+      }
+      if (const std::string missing = vtkIBLGL::FindMissingFeature(); !missing.empty())
+      {
+        throw std::runtime_error(missing);
+      }
+      this->LastBuildTexels = this->Build(window);
+      glFinish();
+      this->LastBuildSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      ++this->NumberOfBuilds;
+      this->BuildTime.Modified();
+    }
+    catch (const std::exception& error)
+    {
+      vtkErrorMacro(<< error.what());
+    }
+  }
+  return this->GetBuildTime() > 0;
+}
+
+void vtkIBLStage::ReleaseGraphicsResources(vtkWindow*)
+{
+  this->Release();
+  this->Window = nullptr;
+  this->BuildTime = vtkTimeStamp();
+  this->AttemptTime = vtkTimeStamp();
+}
