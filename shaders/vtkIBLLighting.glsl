@@ -19,20 +19,25 @@ vec3 iblDiffuseRadiance(vec3 N)
   return max(e, vec3(0.0));
 }
 
-// Radiance towards the camera. normalVC is unit, positionVC the fragment's place; f0 and f90 as VTK made them from albedo,
-// metallic, index of refraction and edge tint.
-vec3 iblEnvironmentLight(vec3 normalVC, vec3 positionVC, vec3 albedo, float perceptualRoughness, float metallic, vec3 f0, vec3 f90)
+// Radiance towards the camera from a surface of unit normal normalVC at positionVC: `metallic` of it metal (f0 = albedo, f90 = edgeTint), the rest
+// dielectric (f0 = baseF0 over a matt base of that albedo).
+vec3 iblEnvironmentLight(
+  vec3 normalVC, vec3 positionVC, vec3 albedo, float perceptualRoughness, float metallic, float baseF0, vec3 edgeTint)
 {
   vec3 viewVC = iblParallelProjection != 0 ? vec3(0.0, 0.0, 1.0) : normalize(-positionVC);
   float NoV = clamp(dot(normalVC, viewVC), 1e-4, 1.0);
-  vec3 reflected = iblEnvironmentFromView * reflect(-viewVC, normalVC);
-  vec3 specular = iblPrefilteredRadiance(reflected, perceptualRoughness);
+  vec3 specular = iblPrefilteredRadiance(iblEnvironmentFromView * reflect(-viewVC, normalVC), perceptualRoughness);
   vec3 diffuse = iblDiffuseRadiance(normalize(iblEnvironmentFromView * normalVC));
 
   float tableSize = float(textureSize(iblBRDFTable, 0).x);
   vec2 ab = texture(iblBRDFTable, iblBRDFTableCoordinates(NoV, clamp(perceptualRoughness, 0.0, 1.0), tableSize)).rg;
-  vec3 once = iblSingleScatter(f0, f90, ab);
-  vec3 again = iblEnergyCompensation != 0 ? iblMultipleScatter(f0, f90, ab) : vec3(0.0);
-  vec3 below = albedo * (1.0 - metallic) * (vec3(1.0) - once - again);
-  return iblRadianceScale * (once * specular + (again + below) * diffuse);
+  float compensation = iblEnergyCompensation != 0 ? 1.0 : 0.0;
+  vec3 f0 = vec3(baseF0);
+  vec3 f90 = vec3(min(50.0 * baseF0, 1.0)); // below 2 % it is no reflection but occlusion: VTK's and Frostbite's rule
+  vec3 onceDielectric = iblSingleScatter(f0, f90, ab);
+  vec3 againDielectric = compensation * iblMultipleScatter(f0, f90, ab);
+  vec3 matt = albedo * (vec3(1.0) - onceDielectric - againDielectric);
+  vec3 once = mix(onceDielectric, iblSingleScatter(albedo, edgeTint, ab), metallic);
+  vec3 again = mix(againDielectric + matt, compensation * iblMultipleScatter(albedo, edgeTint, ab), metallic);
+  return iblRadianceScale * (once * specular + again * diffuse);
 }

@@ -10,7 +10,8 @@
 
 vtkStandardNewMacro(vtkIBLBRDFTable);
 
-static_assert(vtkIBLBRDFTable::SmithCorrelated == IBL_SMITH_CORRELATED && vtkIBLBRDFTable::SchlickSmith == IBL_SCHLICK_SMITH,
+static_assert(
+  vtkIBLBRDFTable::SmithCorrelated == IBL_SMITH_CORRELATED && vtkIBLBRDFTable::SchlickSmith == IBL_SCHLICK_SMITH,
   "the shader takes the enumeration's values");
 
 struct vtkIBLBRDFTable::Internals
@@ -29,7 +30,8 @@ vtkIBLBRDFTable::~vtkIBLBRDFTable() = default;
 void vtkIBLBRDFTable::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "GeometryTerm: " << (this->GeometryTerm == SmithCorrelated ? "SmithCorrelated" : "SchlickSmith") << "\n"
+  os << indent << "GeometryTerm: " << (this->GeometryTerm == SmithCorrelated ? "SmithCorrelated" : "SchlickSmith")
+     << "\n"
      << indent << "NumberOfSamples: " << this->NumberOfSamples << "\n";
 }
 

@@ -4,8 +4,9 @@
  * @class vtkIBLBRDFTable
  * @brief the split sum's second factor: what share of light a surface reflects, by angle and roughness
  *
- * Texel (i, j) holds (A, B) with  reflectance = f0 A + f90 B  for Schlick's Fresnel term, at NoV = (i/(n-1))^2 and perceptualRoughness =
- * j/(n-1): sqrt(NoV) across, outer texel centres on the domain's edges (Karis 2013). Needs no input at all.
+ * Texel (i, j) holds (A, B) with  reflectance = f0 A + f90 B  for Schlick's Fresnel term, at NoV = (i/(n-1))^2 and
+ * perceptualRoughness = j/(n-1): sqrt(NoV) across, outer texel centres on the domain's edges (Karis 2013). Needs no
+ * input at all.
  */
 #ifndef vtkIBLBRDFTable_h
 #define vtkIBLBRDFTable_h

@@ -35,7 +35,8 @@ void GetViewRays(vtkRenderer* renderer, glm::vec2& scale, glm::vec2& shift)
   const double aspect = renderer->GetTiledAspectRatio();
   if (camera->GetParallelProjection())
   {
-    // All rays of a parallel projection look at one point of the environment; show what a perspective of the same view angle would.
+    // All rays of a parallel projection look at one point of the environment; show what a perspective of the same view
+    // angle would.
     const double half = std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
     scale = glm::vec2(half * aspect, half);
     shift = glm::vec2(0.0f);

@@ -4,7 +4,8 @@
  * @class vtkIBLBackground
  * @brief the environment as seen behind the scene, drawn at the far plane
  *
- * A prop, so that a chain of render passes draws it where it draws opaque geometry, after its own clear. Made and used by vtkIBLRenderPass.
+ * A prop, so that a chain of render passes draws it where it draws opaque geometry, after its own clear. Made and used
+ * by vtkIBLRenderPass.
  */
 #ifndef vtkIBLBackground_h
 #define vtkIBLBackground_h

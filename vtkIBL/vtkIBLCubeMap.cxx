@@ -48,14 +48,16 @@ int ChooseFaceSize(int wanted, const vtkIBLRadianceImage& radiance)
 {
   constexpr int least = 16;
   constexpr int largestByDefault = 512;
-  // At a face's centre a texel spans 2/n radians; one of the image 2 pi/W. W/4 is the power of two that keeps its detail.
+  // At a face's centre a texel spans 2/n radians; one of the image 2 pi/W. W/4 is the power of two that keeps its
+  // detail.
   const int own = radiance.Faces == 6 ? radiance.Width : radiance.Width / 4;
   return std::max(FloorPowerOfTwo(wanted > 0 ? wanted : std::min(own, largestByDefault)), least);
 }
 
 void Upload(const vtkIBLGL::Texture& texture, const vtkIBLRadianceImage& radiance)
 {
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4); // rows of three floats are always so aligned; VTK's cache has 1 or 4 here, either will do
+  glPixelStorei(
+    GL_UNPACK_ALIGNMENT, 4); // rows of three floats are always so aligned; VTK's cache has 1 or 4 here, either will do
   if (radiance.Faces == 6)
   {
     glTextureSubImage3D(texture.Id(), 0, 0, 0, 0, radiance.Width, radiance.Height, 6, GL_RGB, GL_FLOAT, radiance.RGB);
@@ -74,8 +76,8 @@ void RequireTextureSize(const vtkIBLRadianceImage& radiance)
   if (radiance.Width > largest || radiance.Height > largest)
   {
     std::ostringstream words;
-    words << "the environment is " << radiance.Width << "x" << radiance.Height << ", and this GPU takes textures up to " << largest
-          << "; lower vtkIBLEnvironment's MaximumWidth";
+    words << "the environment is " << radiance.Width << "x" << radiance.Height << ", and this GPU takes textures up to "
+          << largest << "; lower vtkIBLEnvironment's MaximumWidth";
     throw std::runtime_error(words.str());
   }
 }
@@ -146,7 +148,8 @@ vtkTypeInt64 vtkIBLCubeMap::Build(vtkOpenGLRenderWindow* window)
     gl.Resample = Program::Compute(window, "vtkIBLCubeResampleCS.glsl");
   }
   Texture cube = Texture::Cube(window, faceSize, levels, GL_RGBA32F);
-  auto resample = [&](const Texture& source, int sourceLevel, int level) {
+  auto resample = [&](const Texture& source, int sourceLevel, int level)
+  {
     ActiveProgram active(window, gl.Resample);
     BoundImage target(0, cube, level, GL_WRITE_ONLY, GL_RGBA32F);
     BoundImage origin(1, source, sourceLevel, GL_READ_ONLY, GL_RGBA32F);
@@ -190,7 +193,8 @@ vtkSmartPointer<vtkImageData> vtkIBLCubeMap::ReadLevel(int level)
 {
   if (level < 0 || level >= this->GetNumberOfLevels())
   {
-    vtkErrorMacro("There is no mip level " << level << "; the cube map has " << this->GetNumberOfLevels() << ". Call Update() first.");
+    vtkErrorMacro("There is no mip level " << level << "; the cube map has " << this->GetNumberOfLevels()
+                                           << ". Call Update() first.");
     return nullptr;
   }
   return this->Internal->Cube.Read(level);

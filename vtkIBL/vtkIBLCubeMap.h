@@ -4,8 +4,8 @@
  * @class vtkIBLCubeMap
  * @brief the environment's radiance as a cube map with solid-angle-weighted mip levels
  *
- * Every texel is the exact solid-angle-weighted mean of the environment's texels under it, and every mip level that of the level before:
- * energy is kept, there is no seam and no pole artefact. Stored as RGBA32F, down to 1x1.
+ * Every texel is the exact solid-angle-weighted mean of the environment's texels under it, and every mip level that of
+ * the level before: energy is kept, there is no seam and no pole artefact. Stored as RGBA32F, down to 1x1.
  */
 #ifndef vtkIBLCubeMap_h
 #define vtkIBLCubeMap_h
@@ -39,8 +39,9 @@ public:
 
   ///@{
   /**
-   * Texels along a face's edge, rounded down to a power of two in [16, 4096]. 0, the default: as fine as the environment (a quarter of a
-   * lat-long map's width), at most 512. Smaller blurs mirrors and a sharp background; larger costs memory: 128 bytes per face edge squared.
+   * Texels along a face's edge, rounded down to a power of two in [16, 4096]. 0, the default: as fine as the
+   * environment (a quarter of a lat-long map's width), at most 512. Smaller blurs mirrors and a sharp background;
+   * larger costs memory: 128 bytes per face edge squared.
    */
   vtkSetClampMacro(FaceSize, int, 0, 4096);
   vtkGetMacro(FaceSize, int);
@@ -48,7 +49,8 @@ public:
 
   ///@{
   /**
-   * The output: face size and mip levels of the last build, and the environment's mean luminance at that time (0 when black).
+   * The output: face size and mip levels of the last build, and the environment's mean luminance at that time (0 when
+   * black).
    */
   vtkGetMacro(OutputFaceSize, int);
   int GetNumberOfLevels() const;
@@ -57,7 +59,8 @@ public:
   ///@}
 
   /**
-   * Copies one mip level back from the GPU: n x n x 6 float RGB in GL's face order, row 0 at t = -1. Null when there is no such level.
+   * Copies one mip level back from the GPU: n x n x 6 float RGB in GL's face order, row 0 at t = -1. Null when there is
+   * no such level.
    */
   vtkSmartPointer<vtkImageData> ReadLevel(int level);
 

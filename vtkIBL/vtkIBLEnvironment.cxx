@@ -158,7 +158,8 @@ bool vtkIBLEnvironment::SetAxis(const char* name, double axis[3], double x, doub
   const double length = std::sqrt(x * x + y * y + z * z);
   if (!(length > 0.0) || !std::isfinite(length))
   {
-    vtkErrorMacro(<< name << " is (" << x << ", " << y << ", " << z << "); a direction is finite and not zero. The old one stays.");
+    vtkErrorMacro(<< name << " is (" << x << ", " << y << ", " << z
+                  << "); a direction is finite and not zero. The old one stays.");
     return false;
   }
   if (axis[0] != x || axis[1] != y || axis[2] != z)
@@ -212,7 +213,8 @@ void vtkIBLEnvironment::SetTint(double red, double green, double blue)
   const double least = std::min({ red, green, blue });
   if (!(least >= 0.0) || !std::isfinite(red + green + blue))
   {
-    vtkErrorMacro("Tint is (" << red << ", " << green << ", " << blue << "); each must be finite and not negative. The old one stays.");
+    vtkErrorMacro("Tint is (" << red << ", " << green << ", " << blue
+                              << "); each must be finite and not negative. The old one stays.");
   }
   else if (red != this->Tint[0] || green != this->Tint[1] || blue != this->Tint[2])
   {
@@ -307,15 +309,16 @@ vtkSmartPointer<vtkImageData> vtkIBLEnvironment::LoadInput()
   const bool cube = dimensions[2] == 6 && dimensions[0] == dimensions[1];
   if (!latLong && !cube)
   {
-    vtkErrorMacro("The input is " << dimensions[0] << "x" << dimensions[1] << "x" << dimensions[2]
-                                  << "; an environment is 2n x n x 1 (lat-long) or n x n x 6 (faces). The last good light stays.");
+    vtkErrorMacro(
+      "The input is " << dimensions[0] << "x" << dimensions[1] << "x" << dimensions[2]
+                      << "; an environment is 2n x n x 1 (lat-long) or n x n x 6 (faces). The last good light stays.");
     return nullptr;
   }
   const int colorSpace = this->GetColorSpace();
   const int type = array->GetDataType();
   const bool integer = type == VTK_UNSIGNED_CHAR || type == VTK_UNSIGNED_SHORT;
-  const bool decode = colorSpace == vtkIBLImageReader::ColorSpaceSRGB ||
-    (colorSpace == vtkIBLImageReader::ColorSpaceAuto && integer);
+  const bool decode =
+    colorSpace == vtkIBLImageReader::ColorSpaceSRGB || (colorSpace == vtkIBLImageReader::ColorSpaceAuto && integer);
   const double scale = integer ? 1.0 / (type == VTK_UNSIGNED_CHAR ? 255.0 : 65535.0) : 1.0;
   const int components = array->GetNumberOfComponents();
 
@@ -347,9 +350,10 @@ void vtkIBLEnvironment::Adopt(vtkImageData* radiance)
   const bool faint = faults.MostNegative > -0.1 * this->MeanLuminance;
   if (faults.NotFinite > 0 || faults.TooLarge > 0 || (faults.Negative > 0 && !faint))
   {
-    vtkWarningMacro("Environment '" << (this->FileName.empty() ? "input" : this->FileName) << "': replaced " << faults.NotFinite
-                                    << " NaN or infinite and " << faults.TooLarge << " too large texels (above "
-                                    << vtkIBLLargestRadiance << ") by the mean of their neighbours, and " << faults.Negative
+    vtkWarningMacro("Environment '" << (this->FileName.empty() ? "input" : this->FileName) << "': replaced "
+                                    << faults.NotFinite << " NaN or infinite and " << faults.TooLarge
+                                    << " too large texels (above " << vtkIBLLargestRadiance
+                                    << ") by the mean of their neighbours, and " << faults.Negative
                                     << " negative ones (down to " << faults.MostNegative << ") by 0.");
   }
 }

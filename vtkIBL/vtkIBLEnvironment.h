@@ -4,15 +4,15 @@
  * @class vtkIBLEnvironment
  * @brief light from all directions: where it comes from, which way it is turned, how strong it is
  *
- * The light is read from an image file, taken from a pipeline or an image, or, with neither, that of a built-in procedural studio. It is
- * checked and cleaned once: NaN, infinite, absurdly large (above 1e10) and negative texels are counted, reported and replaced. A source that can't
- * be read reports an error, and the last good light stays.
+ * The light is read from an image file, taken from a pipeline or an image, or, with neither, that of a built-in
+ * procedural studio. It is checked and cleaned once: NaN, infinite, absurdly large (above 1e10) and negative texels are
+ * counted, reported and replaced. A source that can't be read reports an error, and the last good light stays.
  *
- * Orientation, intensity and tint enter when light is looked up; changing them costs nothing. One environment can serve any number of render
- * passes and windows.
+ * Orientation, intensity and tint enter when light is looked up; changing them costs nothing. One environment can serve
+ * any number of render passes and windows.
  *
- * A lat-long image has the direction d at u = atan(d.z, d.x)/2pi + 1/2, v = asin(d.y)/pi + 1/2, as vtkRenderer::SetEnvironmentTexture has it; all
- * conventions are in docs/conventions.md.
+ * A lat-long image has the direction d at u = atan(d.z, d.x)/2pi + 1/2, v = asin(d.y)/pi + 1/2, as
+ * vtkRenderer::SetEnvironmentTexture has it; all conventions are in docs/conventions.md.
  */
 #ifndef vtkIBLEnvironment_h
 #define vtkIBLEnvironment_h
@@ -39,8 +39,8 @@ public:
 
   ///@{
   /**
-   * The image file to read: any that OpenImageIO reads (.exr .hdr .tif .png .jpg …), lat-long or a cube layout, see vtkIBLImageReader.
-   * Setting a file name drops an input connection. Null or empty, the default: no file.
+   * The image file to read: any that OpenImageIO reads (.exr .hdr .tif .png .jpg …), lat-long or a cube layout, see
+   * vtkIBLImageReader. Setting a file name drops an input connection. Null or empty, the default: no file.
    */
   void SetFileName(const char* fileName);
   const char* GetFileName() const;
@@ -48,8 +48,8 @@ public:
 
   ///@{
   /**
-   * Light from a pipeline or an image: 1 to 4 components of any type; W x H x 1 with W = 2 H, row 0 straight down, or n x n x 6, faces in GL's order,
-   * row 0 at t = -1. Setting an input drops the file name; null goes back to the studio.
+   * Light from a pipeline or an image: 1 to 4 components of any type; W x H x 1 with W = 2 H, row 0 straight down, or n
+   * x n x 6, faces in GL's order, row 0 at t = -1. Setting an input drops the file name; null goes back to the studio.
    */
   void SetInputConnection(vtkAlgorithmOutput* output);
   void SetInputData(vtkImageData* image);
@@ -57,8 +57,9 @@ public:
 
   ///@{
   /**
-   * How the source's numbers mean light; vtkIBLImageReader's ColorSpaceAuto (the default: sRGB for 8- and 16-bit integers, linear for the rest),
-   * ColorSpaceLinear or ColorSpaceSRGB. An sRGB picture taken as linear looks washed out and too bright.
+   * How the source's numbers mean light; vtkIBLImageReader's ColorSpaceAuto (the default: sRGB for 8- and 16-bit
+   * integers, linear for the rest), ColorSpaceLinear or ColorSpaceSRGB. An sRGB picture taken as linear looks washed
+   * out and too bright.
    */
   void SetColorSpace(int colorSpace);
   int GetColorSpace() const;
@@ -74,8 +75,9 @@ public:
 
   ///@{
   /**
-   * Which world direction the environment's +y points to, and which its +x, as in vtkRenderer. `Right` is made perpendicular to `Up`. Default
-   * (0, 1, 0) and (1, 0, 0); for data whose z is up, SetUp(0, 0, 1). Zero or not finite: an error, and the old value stays.
+   * Which world direction the environment's +y points to, and which its +x, as in vtkRenderer. `Right` is made
+   * perpendicular to `Up`. Default (0, 1, 0) and (1, 0, 0); for data whose z is up, SetUp(0, 0, 1). Zero or not finite:
+   * an error, and the old value stays.
    */
   void SetUp(double x, double y, double z);
   vtkGetVector3Macro(Up, double);
@@ -103,8 +105,8 @@ public:
 
   ///@{
   /**
-   * Scale the light so that its mean luminance is 1: a white matt surface then averages 1, and colours of a colour map stay what they are, whatever
-   * the exposure of the image. Default off: radiance as the file has it.
+   * Scale the light so that its mean luminance is 1: a white matt surface then averages 1, and colours of a colour map
+   * stay what they are, whatever the exposure of the image. Default off: radiance as the file has it.
    */
   void SetNormalizeExposure(bool normalize);
   vtkGetMacro(NormalizeExposure, bool);
@@ -118,7 +120,8 @@ public:
 
   ///@{
   /**
-   * The light as of the last Update(): linear, finite, non-negative float RGB, W x H x 1 or n x n x 6. Not to be changed.
+   * The light as of the last Update(): linear, finite, non-negative float RGB, W x H x 1 or n x n x 6. Not to be
+   * changed.
    */
   vtkImageData* GetRadianceImage() const;
   vtkIBLRadianceImage GetRadiance() const;

@@ -40,7 +40,8 @@ void CheckErrors(const char* doing)
     {
     }
     std::ostringstream words;
-    words << "OpenGL error 0x" << std::hex << error << (error == GL_OUT_OF_MEMORY ? " (out of memory)" : "") << " while " << doing;
+    words << "OpenGL error 0x" << std::hex << error << (error == GL_OUT_OF_MEMORY ? " (out of memory)" : "")
+          << " while " << doing;
     throw std::runtime_error(words.str());
   }
 }

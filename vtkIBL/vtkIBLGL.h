@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) vtkIBL authors
 // SPDX-License-Identifier: BSD-3-Clause
-// OpenGL 4.5 objects that clean up after themselves. Direct state access throughout: nothing here changes a binding that VTK's state
-// cache believes in.
+// OpenGL 4.5 objects that clean up after themselves. Direct state access throughout: nothing here changes a binding
+// that VTK's state cache believes in.
 #pragma once
 
 #include "vtkImageData.h"
@@ -51,7 +51,8 @@ public:
   static Texture Cube(vtkOpenGLRenderWindow* window, int faceSize, int levels, GLenum format);
   static Texture Image2D(vtkOpenGLRenderWindow* window, int width, int height, GLenum format);
   int GetWidth(int level = 0) const;
-  /// Texels of one level as float RGB: n x n x 6 of a cube, face after face in GL's order, row 0 at t = -1; w x h x 1 of an image.
+  /// Texels of one level as float RGB: n x n x 6 of a cube, face after face in GL's order, row 0 at t = -1; w x h x 1
+  /// of an image.
   vtkSmartPointer<vtkImageData> Read(int level) const;
   using Object::Object;
 };
@@ -72,13 +73,15 @@ public:
   using Object::Object;
 };
 
-/// A linked program of shaders/ files. Making it throws std::runtime_error with the compiler's words and the file's name.
+/// A linked program of shaders/ files. Making it throws std::runtime_error with the compiler's words and the file's
+/// name.
 class Program : public Object
 {
 public:
   Program() = default;
   static Program Compute(vtkOpenGLRenderWindow* window, const std::string& shader);
-  static Program Draw(vtkOpenGLRenderWindow* window, const std::string& vertexShader, const std::string& fragmentShader);
+  static Program Draw(
+    vtkOpenGLRenderWindow* window, const std::string& vertexShader, const std::string& fragmentShader);
   void Set(const char* uniform, int value) const;
   void Set(const char* uniform, float value) const;
   void Set(const char* uniform, const glm::vec2& value) const;
@@ -128,7 +131,8 @@ private:
   GLuint Binding;
 };
 
-/// Runs the active compute program over size^2 x layers texels in IBL_TILE tiles; what it wrote is visible to whatever reads it next.
+/// Runs the active compute program over size^2 x layers texels in IBL_TILE tiles; what it wrote is visible to whatever
+/// reads it next.
 void DispatchTiles(int size, int layers);
 
 /// The barrier and the error check that follow any dispatch.

@@ -83,16 +83,17 @@ void vtkIBLIrradiance::GetIrradiance(const double normal[3], double rgb[3]) cons
 
 void vtkIBLIrradiance::GetPolynomial(float factors[9][3]) const
 {
-  // A direction for each basis function at which its polynomial is known: the constant in front is harmonic / polynomial there.
+  // A direction for each basis function at which its polynomial is known: the constant in front is harmonic /
+  // polynomial there.
   const double half = std::sqrt(0.5);
-  const Functions::vec3 probes[9] = { { 0, 0, 1 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { half, half, 0 }, { 0, half, half },
-    { 0, 0, 1 }, { half, 0, half }, { 1, 0, 0 } };
+  const Functions::vec3 probes[9] = { { 0, 0, 1 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { half, half, 0 },
+    { 0, half, half }, { 0, 0, 1 }, { half, 0, half }, { 1, 0, 0 } };
   const double polynomials[9] = { 1, 1, 1, 1, 0.5, 0.5, 2, 0.5, 1 };
   Functions shader;
   for (int index = 0; index < 9; ++index)
   {
-    const double factor =
-      shader.iblHarmonic(index, probes[index]) / polynomials[index] * shader.iblCosineLobe(GetBand(index)) / shader.iblPi;
+    const double factor = shader.iblHarmonic(index, probes[index]) / polynomials[index] *
+      shader.iblCosineLobe(GetBand(index)) / shader.iblPi;
     for (int k = 0; k < 3; ++k)
     {
       factors[index][k] = static_cast<float>(this->Coefficients[index][k] * factor);

@@ -112,7 +112,8 @@ void vtkIBLLighting::GetEnvironmentFromView(vtkRenderer* renderer, float rows[9]
 {
   double environmentFromWorld[3][3];
   this->GetEnvironment()->GetEnvironmentFromWorld(&environmentFromWorld[0][0]);
-  // Light has no place here, only a direction; so the camera's rotation is all that counts, whatever user transform scales it.
+  // Light has no place here, only a direction; so the camera's rotation is all that counts, whatever user transform
+  // scales it.
   vtkMatrix4x4* viewFromWorld = renderer->GetActiveCamera()->GetModelViewTransformMatrix();
   double linear[3][3];
   for (int i = 0; i < 3; ++i)

@@ -4,8 +4,8 @@
  * @class vtkIBLLighting
  * @brief an environment's light, ready for shading: the stages of the pipeline and how a shader reads them
  *
- * Owns one cube map, irradiance, specular chain and BRDF table, brings them up to date for a window, and hands them to shader programs. What the
- * stages cost can be read from them.
+ * Owns one cube map, irradiance, specular chain and BRDF table, brings them up to date for a window, and hands them to
+ * shader programs. What the stages cost can be read from them.
  */
 #ifndef vtkIBLLighting_h
 #define vtkIBLLighting_h
@@ -53,8 +53,9 @@ public:
 
   ///@{
   /**
-   * Give back the light that rough surfaces lose in a single-scattering model (Fdez-Aguera 2019): white stays white at any roughness. Default on.
-   * Off is the plain split sum, in which a white metal of roughness 1 reflects 31 % at normal incidence.
+   * Give back the light that rough surfaces lose in a single-scattering model (Fdez-Aguera 2019): white stays white at
+   * any roughness. Default on. Off is the plain split sum, in which a white metal of roughness 1 reflects 31 % at
+   * normal incidence.
    */
   vtkSetMacro(EnergyCompensation, bool);
   vtkGetMacro(EnergyCompensation, bool);
@@ -68,8 +69,8 @@ public:
 
   ///@{
   /**
-   * Between these two the textures are bound to units of their own, and SetShaderParameters() gives a program that contains
-   * vtkIBLLighting.glsl all it needs to shade what `renderer`'s camera sees.
+   * Between these two the textures are bound to units of their own, and SetShaderParameters() gives a program that
+   * contains vtkIBLLighting.glsl all it needs to shade what `renderer`'s camera sees.
    */
   void Activate(vtkOpenGLRenderWindow* window);
   void Deactivate();

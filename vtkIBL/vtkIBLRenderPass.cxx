@@ -30,8 +30,8 @@ vtkStandardNewMacro(vtkIBLRenderPass);
 
 namespace
 {
-// Marks props so that their mappers call this pass's hooks, for one frame. Not vtkOpenGLRenderPass's own PreRender(): that marks volumes too, and
-// a volume mapper takes any mark for dual depth peeling.
+// Marks props so that their mappers call this pass's hooks, for one frame. Not vtkOpenGLRenderPass's own PreRender():
+// that marks volumes too, and a volume mapper takes any mark for dual depth peeling.
 class MarkedProps
 {
 public:
@@ -286,8 +286,8 @@ vtkSmartPointer<vtkImageData> vtkIBLRenderPass::CaptureRadiance(vtkRenderer* ren
   {
     image->SetDimensions(int(texture->GetWidth()), int(texture->GetHeight()), 1);
     image->AllocateScalars(VTK_FLOAT, 4);
-    glGetTextureImage(texture->GetHandle(), 0, GL_RGBA, GL_FLOAT, GLsizei(4 * sizeof(float) * image->GetNumberOfPoints()),
-      image->GetScalarPointer());
+    glGetTextureImage(texture->GetHandle(), 0, GL_RGBA, GL_FLOAT,
+      GLsizei(4 * sizeof(float) * image->GetNumberOfPoints()), image->GetScalarPointer());
   }
   framebuffer->SetDelegatePass(nullptr); // its release would be ours, too
   framebuffer->ReleaseGraphicsResources(window);
@@ -306,7 +306,11 @@ bool vtkIBLRenderPass::PostReplaceShaderValues(
   }
   // Where VTK adds its direct light, in every version from 9.1 to 9.7. Unlit shaders have no such line and need none.
   const std::string direct = "  color += Lo;\n";
-  const std::string environment = "  color += iblEnvironmentLight(N, vertexVC.xyz, albedo, roughness, metallic, F0, F90);\n";
+  // VTK's own D is 0/0 at roughness 0 where H = N, even for a light of intensity 0.
+  const std::string environment =
+    "  Lo = mix(Lo, vec3(0.0), isnan(Lo));\n"
+    "  color += iblEnvironmentLight(\n"
+    "    N, vertexVC.xyz, albedo, roughness, metallic, baseF0Uniform, edgeTintUniform);\n";
   if (!vtkShaderProgram::Substitute(fragmentShader, direct, environment + direct, false))
   {
     return true;
@@ -320,7 +324,8 @@ bool vtkIBLRenderPass::PostReplaceShaderValues(
   return true;
 }
 
-bool vtkIBLRenderPass::SetShaderParameters(vtkShaderProgram* program, vtkAbstractMapper*, vtkProp*, vtkOpenGLVertexArrayObject*)
+bool vtkIBLRenderPass::SetShaderParameters(
+  vtkShaderProgram* program, vtkAbstractMapper*, vtkProp*, vtkOpenGLVertexArrayObject*)
 {
   if (this->Renderer && program->IsUniformUsed("iblRadianceScale"))
   {

@@ -8,9 +8,10 @@
  *     vtkNew<vtkIBLRenderPass> ibl;           ibl->SetEnvironment(environment);
  *     renderer->SetPass(ibl);
  *
- * Adds diffuse and specular environment light to actors whose interpolation is PBR, beside VTK's own direct lights, textures, normal maps, emission,
- * occlusion, scalar colours, opacity, depth peeling, clipping and picking, which stay as they are. With no environment given, a built-in studio
- * lights the scene. A scene without lights needs none: while this pass renders, VTK makes no headlight of its own.
+ * Adds diffuse and specular environment light to actors whose interpolation is PBR, beside VTK's own direct lights,
+ * textures, normal maps, emission, occlusion, scalar colours, opacity, depth peeling, clipping and picking, which stay
+ * as they are. With no environment given, a built-in studio lights the scene. A scene without lights needs none: while
+ * this pass renders, VTK makes no headlight of its own.
  *
  * Leave vtkRenderer's UseImageBasedLighting off, or the actors get the environment twice.
  *
@@ -82,15 +83,16 @@ public:
 
   ///@{
   /**
-   * The pass that draws the scene, vtkSSAOPass or a vtkRenderStepsPass, say. Null, the default: as a renderer without a pass draws.
+   * The pass that draws the scene, vtkSSAOPass or a vtkRenderStepsPass, say. Null, the default: as a renderer without a
+   * pass draws.
    */
   void SetDelegatePass(vtkRenderPass* pass);
   vtkRenderPass* GetDelegatePass();
   ///@}
 
   /**
-   * Renders `renderer`'s window once, through a float framebuffer and with linear encoding, and returns what `renderer` shows: width x height x 1 float
-   * RGBA, row 0 at the bottom. `renderer`'s pass must be this one.
+   * Renders `renderer`'s window once, through a float framebuffer and with linear encoding, and returns what `renderer`
+   * shows: width x height x 1 float RGBA, row 0 at the bottom. `renderer`'s pass must be this one.
    */
   vtkSmartPointer<vtkImageData> CaptureRadiance(vtkRenderer* renderer);
 
@@ -101,10 +103,10 @@ public:
   /**
    * vtkOpenGLRenderPass's hooks: the environment's term goes into the fragment shaders of lit PBR actors.
    */
-  bool PostReplaceShaderValues(std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper* mapper,
-    vtkProp* prop) override;
-  bool SetShaderParameters(
-    vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop, vtkOpenGLVertexArrayObject* VAO = nullptr) override;
+  bool PostReplaceShaderValues(std::string& vertexShader, std::string& geometryShader, std::string& fragmentShader,
+    vtkAbstractMapper* mapper, vtkProp* prop) override;
+  bool SetShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop,
+    vtkOpenGLVertexArrayObject* VAO = nullptr) override;
   vtkMTimeType GetShaderStageMTime() override;
   ///@}
 
@@ -125,9 +127,9 @@ private:
   bool BackgroundVisible = false;
   double BackgroundBlur = 0.0;
   int OutputEncoding = Display;
-  bool Lit = false;              // there is light to add in this frame
+  bool Lit = false;                // there is light to add in this frame
   vtkRenderer* Renderer = nullptr; // while Render runs
-  vtkTimeStamp ShaderTime;       // when the GLSL that the hooks write last changed
+  vtkTimeStamp ShaderTime;         // when the GLSL that the hooks write last changed
 };
 
 #endif

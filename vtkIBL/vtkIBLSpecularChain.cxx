@@ -57,7 +57,8 @@ int vtkIBLSpecularChain::GetNumberOfLayers()
 
 double vtkIBLSpecularChain::GetPerceptualRoughness(int layer)
 {
-  return vtkIBLCore::ShaderFunctions<double>().iblPerceptualRoughnessFromLayer(std::clamp(layer, 0, IBL_LAYER_COUNT - 1));
+  return vtkIBLCore::ShaderFunctions<double>().iblPerceptualRoughnessFromLayer(
+    std::clamp(layer, 0, IBL_LAYER_COUNT - 1));
 }
 
 int vtkIBLSpecularChain::GetLayerFaceSize(int layer) const
@@ -143,11 +144,13 @@ vtkSmartPointer<vtkImageData> vtkIBLSpecularChain::ReadLayer(int layer)
 {
   if (layer < 0 || layer >= IBL_LAYER_COUNT || this->OutputFaceSize == 0)
   {
-    vtkErrorMacro("There is no layer " << layer << "; the chain has 0 to " << IBL_LAYER_COUNT - 1 << " after Update().");
+    vtkErrorMacro(
+      "There is no layer " << layer << "; the chain has 0 to " << IBL_LAYER_COUNT - 1 << " after Update().");
     return nullptr;
   }
   auto image = this->Internal->Chains[layer % 2].Read(layer / 2);
   auto* value = static_cast<float*>(image->GetScalarPointer());
-  std::transform(value, value + 3 * image->GetNumberOfPoints(), value, [this](float x) { return float(x * this->StoredScale); });
+  std::transform(
+    value, value + 3 * image->GetNumberOfPoints(), value, [this](float x) { return float(x * this->StoredScale); });
   return image;
 }

@@ -4,10 +4,10 @@
  * @class vtkIBLSpecularChain
  * @brief mirror to matt: the environment seen through GGX lobes, one layer a roughness
  *
- * Layer i holds, for every direction R, the mean of radiance under the GGX lobe of GetPerceptualRoughness(i) around N = V = R, weighted
- * by N.L (Karis 2013). Layers alternate between two RGBA16F cube maps of equal size, so that each mip level of each holds one layer,
- * and shading reads any roughness with two bilinear fetches. Values are radiance divided by the environment's mean luminance, at most
- * 65504.
+ * Layer i holds, for every direction R, the mean of radiance under the GGX lobe of GetPerceptualRoughness(i) around N =
+ * V = R, weighted by N.L (Karis 2013). Layers alternate between two RGBA16F cube maps of equal size, so that each mip
+ * level of each holds one layer, and shading reads any roughness with two bilinear fetches. Values are radiance divided
+ * by the environment's mean luminance, at most 65504.
  */
 #ifndef vtkIBLSpecularChain_h
 #define vtkIBLSpecularChain_h
@@ -41,8 +41,8 @@ public:
 
   ///@{
   /**
-   * Samples a texel at roughness 1, in [16, 65536]; sharper layers take fewer, as their lobes are narrower. Default 512. Too few shows as
-   * blotches near bright lights; more costs time in proportion.
+   * Samples a texel at roughness 1, in [16, 65536]; sharper layers take fewer, as their lobes are narrower. Default
+   * 512. Too few shows as blotches near bright lights; more costs time in proportion.
    */
   vtkSetClampMacro(NumberOfSamples, int, 16, 65536);
   vtkGetMacro(NumberOfSamples, int);
@@ -50,8 +50,8 @@ public:
 
   ///@{
   /**
-   * Texels along a face's edge of the sharpest layer, rounded down to a power of two in [16, 2048], and never more than the cube map has.
-   * Default 256. Smaller blurs mirrors.
+   * Texels along a face's edge of the sharpest layer, rounded down to a power of two in [16, 2048], and never more than
+   * the cube map has. Default 256. Smaller blurs mirrors.
    */
   vtkSetClampMacro(FaceSize, int, 16, 2048);
   vtkGetMacro(FaceSize, int);
@@ -68,7 +68,8 @@ public:
 
   ///@{
   /**
-   * The output: the cube map of layers 0, 2, 4 … and that of 1, 3, 5 …, and what their values are multiplied by to be radiance.
+   * The output: the cube map of layers 0, 2, 4 … and that of 1, 3, 5 …, and what their values are multiplied by to be
+   * radiance.
    */
   const vtkIBLGL::Texture& GetEvenLayers() const;
   const vtkIBLGL::Texture& GetOddLayers() const;
@@ -76,7 +77,8 @@ public:
   ///@}
 
   /**
-   * Copies one layer back from the GPU, as radiance: n x n x 6 float RGB in GL's face order, row 0 at t = -1. Null when there is none.
+   * Copies one layer back from the GPU, as radiance: n x n x 6 float RGB in GL's face order, row 0 at t = -1. Null when
+   * there is none.
    */
   vtkSmartPointer<vtkImageData> ReadLayer(int layer);
 

@@ -4,8 +4,8 @@
  * @class vtkIBLStage
  * @brief one stage of the pipeline on the GPU: builds when its input or a setting changed, and only then
  *
- * A stage reads only the stage to its left; staleness flows to the right only. A build that fails reports an error once and leaves the
- * last good output in place.
+ * A stage reads only the stage to its left; staleness flows to the right only. A build that fails reports an error once
+ * and leaves the last good output in place.
  */
 #ifndef vtkIBLStage_h
 #define vtkIBLStage_h
@@ -24,8 +24,9 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * Brings the output up to date in `window`'s context, with everything left of it, and returns whether there is an output: true also
-   * when a build failed but an older output stands. Free when nothing changed. Output made in another window is dropped first.
+   * Brings the output up to date in `window`'s context, with everything left of it, and returns whether there is an
+   * output: true also when a build failed but an older output stands. Free when nothing changed. Output made in another
+   * window is dropped first.
    */
   bool Update(vtkOpenGLRenderWindow* window);
 
@@ -36,7 +37,8 @@ public:
 
   ///@{
   /**
-   * What this stage did so far: builds, seconds of wall time of the last one (with the GPU finished), and texels that it wrote.
+   * What this stage did so far: builds, seconds of wall time of the last one (with the GPU finished), and texels that
+   * it wrote.
    */
   vtkGetMacro(NumberOfBuilds, int);
   vtkGetMacro(LastBuildSeconds, double);
@@ -52,7 +54,8 @@ protected:
   vtkIBLStage() = default;
   ~vtkIBLStage() override = default;
 
-  /// Brings what is left of this stage up to date; false: there is nothing to build from. `inputTime`: when it last changed.
+  /// Brings what is left of this stage up to date; false: there is nothing to build from. `inputTime`: when it last
+  /// changed.
   virtual bool UpdateInput(vtkOpenGLRenderWindow* window, vtkMTimeType& inputTime) = 0;
   /// Makes the output; returns the texels written. Throws std::runtime_error and leaves the old output when it can't.
   virtual vtkTypeInt64 Build(vtkOpenGLRenderWindow* window) = 0;

@@ -32,7 +32,8 @@ inline bool WritePicture(vtkRenderWindow* window, const std::string& fileName)
   writer->Write();
   if (writer->GetErrorCode() != vtkErrorCode::NoError)
   {
-    std::fprintf(stderr, "could not write %s: %s\n", fileName.c_str(), vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+    std::fprintf(stderr, "could not write %s: %s\n", fileName.c_str(),
+      vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
     return false;
   }
   std::printf("wrote %s\n", fileName.c_str());
@@ -45,9 +46,10 @@ inline void PrintStages(vtkIBLRenderPass* ibl)
   int dimensions[3];
   lighting->GetEnvironment()->GetRadianceImage()->GetDimensions(dimensions);
   const char* file = lighting->GetEnvironment()->GetFileName();
-  std::printf("environment: %s, %d x %d, mean luminance %.3g\n", file ? file : "built-in studio", dimensions[0], dimensions[1],
-    lighting->GetEnvironment()->GetMeanLuminance());
-  auto print = [](const char* name, vtkIBLStage* stage) {
+  std::printf("environment: %s, %d x %d, mean luminance %.3g\n", file ? file : "built-in studio", dimensions[0],
+    dimensions[1], lighting->GetEnvironment()->GetMeanLuminance());
+  auto print = [](const char* name, vtkIBLStage* stage)
+  {
     std::printf("  %-14s %8.1f ms  %9lld texels\n", name, 1000.0 * stage->GetLastBuildSeconds(),
       static_cast<long long>(stage->GetLastBuildTexels()));
   };

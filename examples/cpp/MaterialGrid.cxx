@@ -18,7 +18,8 @@ int main(int argc, char* argv[])
   std::string hdri;
   std::string output = "MaterialGrid.png";
   CLI::App app("Spheres from dielectric to metal (bottom to top) and from mirror to matt (left to right)");
-  app.add_option("--environment", hdri, "HDR image to light with; default: the built-in studio")->check(CLI::ExistingFile);
+  app.add_option("--environment", hdri, "HDR image to light with; default: the built-in studio")
+    ->check(CLI::ExistingFile);
   app.add_option("--output", output, "PNG to write")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 

@@ -34,8 +34,9 @@
 
 namespace
 {
-// A divergence-free velocity field out of random Fourier modes with Kolmogorov's spectrum, on n^3 points of a cube, and its Q-criterion
-// (Hunt, Wray & Moin 1988), Q = (|rotation|^2 - |strain|^2)/2 = -(du_i/dx_j du_j/dx_i)/2, which is high where the flow swirls.
+// A divergence-free velocity field out of random Fourier modes with Kolmogorov's spectrum, on n^3 points of a cube, and
+// its Q-criterion (Hunt, Wray & Moin 1988), Q = (|rotation|^2 - |strain|^2)/2 = -(du_i/dx_j du_j/dx_i)/2, which is high
+// where the flow swirls.
 vtkSmartPointer<vtkImageData> MakeTurbulence(int n)
 {
   struct Mode
@@ -73,42 +74,44 @@ vtkSmartPointer<vtkImageData> MakeTurbulence(int n)
   vtkNew<vtkFloatArray> speed;
   speed->SetName("Speed");
   speed->SetNumberOfTuples(image->GetNumberOfPoints());
-  vtkSMPTools::For(0, image->GetNumberOfPoints(), [&](vtkIdType begin, vtkIdType end) {
-    for (vtkIdType point = begin; point < end; ++point)
+  vtkSMPTools::For(0, image->GetNumberOfPoints(),
+    [&](vtkIdType begin, vtkIdType end)
     {
-      double x[3];
-      image->GetPoint(point, x);
-      double u[3] = {};
-      double gradient[3][3] = {};
-      for (const Mode& mode : modes)
+      for (vtkIdType point = begin; point < end; ++point)
       {
-        const double angle = vtkMath::Dot(mode.K, x) + mode.Phase;
-        const double c = std::cos(angle);
-        const double s = std::sin(angle);
-        for (int i = 0; i < 3; ++i)
+        double x[3];
+        image->GetPoint(point, x);
+        double u[3] = {};
+        double gradient[3][3] = {};
+        for (const Mode& mode : modes)
         {
-          u[i] += mode.U[i] * c;
-          for (int j = 0; j < 3; ++j)
+          const double angle = vtkMath::Dot(mode.K, x) + mode.Phase;
+          const double c = std::cos(angle);
+          const double s = std::sin(angle);
+          for (int i = 0; i < 3; ++i)
           {
-            gradient[i][j] -= mode.U[i] * mode.K[j] * s;
+            u[i] += mode.U[i] * c;
+            for (int j = 0; j < 3; ++j)
+            {
+              gradient[i][j] -= mode.U[i] * mode.K[j] * s;
+            }
           }
         }
-      }
-      double trace = 0.0;
-      for (int i = 0; i < 3; ++i)
-      {
-        for (int j = 0; j < 3; ++j)
+        double trace = 0.0;
+        for (int i = 0; i < 3; ++i)
         {
-          trace += gradient[i][j] * gradient[j][i];
+          for (int j = 0; j < 3; ++j)
+          {
+            trace += gradient[i][j] * gradient[j][i];
+          }
         }
+        // Fade towards a ball, so that no vortex is cut by the box.
+        const double radius = vtkMath::Norm(x);
+        const double inside = std::min(std::max((1.0 - radius) / 0.25, 0.0), 1.0);
+        q->SetValue(point, static_cast<float>(-0.5 * trace * inside - (1.0 - inside) * 50.0));
+        speed->SetValue(point, static_cast<float>(vtkMath::Norm(u)));
       }
-      // Fade towards a ball, so that no vortex is cut by the box.
-      const double radius = vtkMath::Norm(x);
-      const double inside = std::min(std::max((1.0 - radius) / 0.25, 0.0), 1.0);
-      q->SetValue(point, static_cast<float>(-0.5 * trace * inside - (1.0 - inside) * 50.0));
-      speed->SetValue(point, static_cast<float>(vtkMath::Norm(u)));
-    }
-  });
+    });
   image->GetPointData()->SetScalars(q);
   image->GetPointData()->AddArray(speed);
   return image;
@@ -146,7 +149,8 @@ vtkSmartPointer<vtkPolyData> ReadSurface(const std::string& fileName)
   auto* dataSet = vtkDataSet::SafeDownCast(data);
   if (!dataSet || dataSet->GetNumberOfCells() == 0)
   {
-    throw std::runtime_error(fileName + " holds no surface that this example reads; give a .vtp, .vtu, .vti, .stl, .ply or .obj");
+    throw std::runtime_error(
+      fileName + " holds no surface that this example reads; give a .vtp, .vtu, .vti, .stl, .ply or .obj");
   }
   vtkNew<vtkDataSetSurfaceFilter> surface;
   surface->SetInputData(dataSet);
@@ -160,8 +164,8 @@ vtkSmartPointer<vtkPolyData> ReadSurface(const std::string& fileName)
 // Viridis at five points; the colour map is the data's, so the light that falls on it is normalised and white.
 vtkSmartPointer<vtkColorTransferFunction> MakeColors(const double range[2])
 {
-  const double colors[5][3] = { { 0.267, 0.005, 0.329 }, { 0.229, 0.322, 0.546 }, { 0.128, 0.567, 0.551 }, { 0.369, 0.789, 0.383 },
-    { 0.993, 0.906, 0.144 } };
+  const double colors[5][3] = { { 0.267, 0.005, 0.329 }, { 0.229, 0.322, 0.546 }, { 0.128, 0.567, 0.551 },
+    { 0.369, 0.789, 0.383 }, { 0.993, 0.906, 0.144 } };
   auto map = vtkSmartPointer<vtkColorTransferFunction>::New();
   for (int i = 0; i < 5; ++i)
   {
@@ -179,8 +183,10 @@ int main(int argc, char* argv[])
   std::string output = "SciVis.png";
   std::string size = "1280x800";
   CLI::App app("Lights a scientific surface with an environment");
-  app.add_option("mesh", mesh, ".vtp .vtu .vti .stl .ply .obj; default: vortices in a turbulent flow")->check(CLI::ExistingFile);
-  app.add_option("--environment", hdri, "HDR image to light with; default: the built-in studio")->check(CLI::ExistingFile);
+  app.add_option("mesh", mesh, ".vtp .vtu .vti .stl .ply .obj; default: vortices in a turbulent flow")
+    ->check(CLI::ExistingFile);
+  app.add_option("--environment", hdri, "HDR image to light with; default: the built-in studio")
+    ->check(CLI::ExistingFile);
   app.add_option("--output", output, "PNG to write")->capture_default_str();
   app.add_option("--size", size, "WIDTHxHEIGHT in pixels")->capture_default_str();
   CLI11_PARSE(app, argc, argv);

@@ -86,7 +86,8 @@ double vtkIBLMeanLuminance(const vtkIBLRadianceImage& image)
   {
     for (int row = 0; row < image.Height; ++row)
     {
-      // sin at the row's centre is proportional to the row's exact solid angle: cos a - cos b = 2 sin((a+b)/2) sin((b-a)/2).
+      // sin at the row's centre is proportional to the row's exact solid angle: cos a - cos b = 2 sin((a+b)/2)
+      // sin((b-a)/2).
       const double rowWeight = std::sin((row + 0.5) / image.Height * shader.iblPi);
       const float* rgb = &image.RGB[3 * (static_cast<std::size_t>(face) * image.Height + row) * image.Width];
       for (int column = 0; column < image.Width; ++column, rgb += 3)

@@ -27,8 +27,8 @@ struct vtkIBLRadianceFaults
 /// The brightest radiance taken at its word. The sun's disc is 2e9 cd/m2; a larger value is a broken texel.
 constexpr float vtkIBLLargestRadiance = 1e10f;
 
-/// Negative channels become 0. A texel that is not finite or too large becomes the mean of its sound neighbours among the eight
-/// around it (black if there are none), so that one broken texel neither darkens nor dominates.
+/// Negative channels become 0. A texel that is not finite or too large becomes the mean of its sound neighbours among
+/// the eight around it (black if there are none), so that one broken texel neither darkens nor dominates.
 vtkIBLRadianceFaults vtkIBLCleanRadiance(vtkIBLRadianceImage& image);
 
 /// Mean luminance (Rec. 709 weights) over the sphere, weighted by solid angle; double sums.

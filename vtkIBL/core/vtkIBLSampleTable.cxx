@@ -31,7 +31,8 @@ vtkIBLSampleTable vtkIBLMakeSampleTable(double perceptualRoughness, int sourceSi
     return table;
   }
   // Below 64 even a narrow lobe shows its samples: 3.6 % with 32, 2.2 % with 64, at roughness 0.1 of a courtyard.
-  const auto count = static_cast<unsigned int>(std::max(std::lround(maximumSamples * LobeShare(alpha)), std::min(64L, long(maximumSamples))));
+  const auto count = static_cast<unsigned int>(
+    std::max(std::lround(maximumSamples * LobeShare(alpha)), std::min(64L, long(maximumSamples))));
   double sum = 0.0;
   std::vector<double> weights;
   for (unsigned int i = 0; i < count; ++i)

@@ -13,8 +13,10 @@ struct vtkIBLSampleTable
   std::vector<float> Weights;     // sum 1
 };
 
-/// Hammersley points drawn from GGX around N = V = R, weighted by NoL, for a source cube of `sourceSize`^2 texels a face. The level of
-/// a sample is that whose texels have the solid angle it stands for, and never below that of the layer's own texels
+/// Hammersley points drawn from GGX around N = V = R, weighted by NoL, for a source cube of `sourceSize`^2 texels a
+/// face. The level of a sample is that whose texels have the solid angle it stands for, and never below that of the
+/// layer's own texels
 /// (`layerSize`). Samples below the horizon are left out. perceptualRoughness 0 gives the mirror: one sample.
-/// The count falls with the lobe: `maximumSamples` at roughness 1, in proportion to the angle that holds 99 % of the half vectors.
+/// The count falls with the lobe: `maximumSamples` at roughness 1, in proportion to the angle that holds 99 % of the
+/// half vectors.
 vtkIBLSampleTable vtkIBLMakeSampleTable(double perceptualRoughness, int sourceSize, int layerSize, int maximumSamples);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) vtkIBL authors
 // SPDX-License-Identifier: BSD-3-Clause
-// shaders/*Functions.glsl compiled as C++ through GLM: as float for what the CPU computes, as double for tests and tables. What
-// the GPU runs and what the CPU runs is one text.
+// shaders/*Functions.glsl compiled as C++ through GLM: as float for what the CPU computes, as double for tests and
+// tables. What the GPU runs and what the CPU runs is one text.
 #pragma once
 
 #include "vtkIBLShared.glsl"

@@ -30,7 +30,8 @@ void Append(vtkIBLShaderSource& source, const std::string& name, bool markLines)
   }
   const size_t file = source.Files.size();
   source.Files.push_back(name);
-  auto mark = [&](int line) {
+  auto mark = [&](int line)
+  {
     if (markLines)
     {
       source.Text += "#line " + std::to_string(line) + " " + std::to_string(file) + "\n";

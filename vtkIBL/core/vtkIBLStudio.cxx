@@ -14,7 +14,7 @@ using Vec3 = Functions::vec3;
 
 struct Softbox
 {
-  Vec3 Direction; // towards its centre
+  Vec3 Direction;               // towards its centre
   double HalfWidth, HalfHeight; // tangents of half its angles
   double Radiance;
   Vec3 Tint;
