@@ -30,6 +30,14 @@ float iblV_SchlickSmith(float NoV, float NoL, float alpha)
   return 0.25 / ((NoV * (1.0 - k) + k) * (NoL * (1.0 - k) + k));
 }
 
+// Schlick's Fresnel term (Schlick 1994, eq. 24).
+vec3 iblF_Schlick(vec3 f0, vec3 f90, float VoH)
+{
+  float grazing = 1.0 - VoH;
+  float grazing2 = grazing * grazing;
+  return f0 + (f90 - f0) * (grazing2 * grazing2 * grazing);
+}
+
 // Split sum (Karis 2013): (A, B) with  integral f(l,v) NoL dl = f0 A + f90 B  for Schlick's Fresnel term, NoV in (0,1].
 // Visible half vectors: with G1 of Smith in the density, the weight is 2 NoL V (NoV + sqrt(NoV^2 (1 - alpha^2) + alpha^2)).
 vec2 iblSplitSum(float NoV, float perceptualRoughness, int geometry, uint sampleCount)

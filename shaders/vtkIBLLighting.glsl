@@ -1,13 +1,8 @@
-// Environment light on one fragment, for VTK's mapper shaders (#version 150: no bindings, no compute). Every global name
-// begins with ibl, since VTK's own text is around it.
-uniform sampler2D iblBRDFTable;
-uniform mat3 iblEnvironmentFromView;
-uniform vec3 iblIrradiance[9];   // irradiance over pi of the stored light: polynomial coefficients, see vtkIBLIrradiance
-uniform vec3 iblRadianceScale;   // from stored light to the scene's: exposure, intensity, tint
-uniform int iblParallelProjection;
-uniform int iblEnergyCompensation;
+// Environment light on one fragment by prefiltered layers and the table, for VTK's mapper shaders (#version 150: no bindings, no
+// compute). Every global name begins with ibl, since VTK's own text is around it.
+uniform vec3 iblIrradiance[9]; // irradiance over pi of the stored light: polynomial coefficients, see vtkIBLIrradiance
 
-#include "vtkIBLEnergyFunctions.glsl"
+#include "vtkIBLSurface.glsl"
 #include "vtkIBLLayers.glsl"
 
 // Stored irradiance over pi at normal N [environment space].
@@ -19,25 +14,17 @@ vec3 iblDiffuseRadiance(vec3 N)
   return max(e, vec3(0.0));
 }
 
-// Radiance towards the camera from a surface of unit normal normalVC at positionVC: `metallic` of it metal (f0 = albedo, f90 = edgeTint), the rest
-// dielectric (f0 = baseF0 over a matt base of that albedo).
+// Radiance towards the camera from a surface of unit normal normalVC at positionVC: `metallic` of it metal (f0 = albedo, f90 =
+// edgeTint), the rest dielectric (f0 = baseF0 over a matt base of that albedo).
 vec3 iblEnvironmentLight(
   vec3 normalVC, vec3 positionVC, vec3 albedo, float perceptualRoughness, float metallic, float baseF0, vec3 edgeTint)
 {
-  vec3 viewVC = iblParallelProjection != 0 ? vec3(0.0, 0.0, 1.0) : normalize(-positionVC);
+  vec3 viewVC = iblViewDirection(positionVC);
   float NoV = clamp(dot(normalVC, viewVC), 1e-4, 1.0);
   vec3 specular = iblPrefilteredRadiance(iblEnvironmentFromView * reflect(-viewVC, normalVC), perceptualRoughness);
   vec3 diffuse = iblDiffuseRadiance(normalize(iblEnvironmentFromView * normalVC));
 
-  float tableSize = float(textureSize(iblBRDFTable, 0).x);
-  vec2 ab = texture(iblBRDFTable, iblBRDFTableCoordinates(NoV, clamp(perceptualRoughness, 0.0, 1.0), tableSize)).rg;
-  float compensation = iblEnergyCompensation != 0 ? 1.0 : 0.0;
-  vec3 f0 = vec3(baseF0);
-  vec3 f90 = vec3(min(50.0 * baseF0, 1.0)); // below 2 % it is no reflection but occlusion: VTK's and Frostbite's rule
-  vec3 onceDielectric = iblSingleScatter(f0, f90, ab);
-  vec3 againDielectric = compensation * iblMultipleScatter(f0, f90, ab);
-  vec3 matt = albedo * (vec3(1.0) - onceDielectric - againDielectric);
-  vec3 once = mix(onceDielectric, iblSingleScatter(albedo, edgeTint, ab), metallic);
-  vec3 again = mix(againDielectric + matt, compensation * iblMultipleScatter(albedo, edgeTint, ab), metallic);
-  return iblRadianceScale * (once * specular + again * diffuse);
+  vec2 ab = iblTableAB(NoV, perceptualRoughness);
+  vec3 once = mix(iblSingleScatter(vec3(baseF0), iblDielectricF90(baseF0), ab), iblSingleScatter(albedo, edgeTint, ab), metallic);
+  return iblRadianceScale * (once * specular + iblDiffuseAlbedo(albedo, metallic, baseF0, edgeTint, ab) * diffuse);
 }

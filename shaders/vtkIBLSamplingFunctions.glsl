@@ -1,9 +1,31 @@
 // Sample points and the distributions they are warped to. A sampler states its density.
 
-// Point i of n of the Hammersley set, centred: (i + 1/2)/n keeps the spike at 0 away. Below 1 for any i < 2^24.
+// Point i of n of the Hammersley set, centred: (i + 1/2)/n keeps the spike at 0 away. Below 1 for any i < 2^24. (Bits are
+// reversed by hand, as VTK's own shaders are of a GLSL without bitfieldReverse.)
 vec2 iblHammersley(uint i, uint n)
 {
-  return vec2((float(i) + 0.5) / float(n), float(bitfieldReverse(i)) * 2.3283064365386962890625e-10);
+  uint bits = (i << 16u) | (i >> 16u);
+  bits = ((bits & 0x55555555u) << 1u) | ((bits & 0xAAAAAAAAu) >> 1u);
+  bits = ((bits & 0x33333333u) << 2u) | ((bits & 0xCCCCCCCCu) >> 2u);
+  bits = ((bits & 0x0F0F0F0Fu) << 4u) | ((bits & 0xF0F0F0F0u) >> 4u);
+  bits = ((bits & 0x00FF00FFu) << 8u) | ((bits & 0xFF00FF00u) >> 8u);
+  return vec2((float(i) + 0.5) / float(n), float(bits) * 2.3283064365386962890625e-10);
+}
+
+// Scrambles an integer (Jarzynski & Olano 2020, PCG).
+uint iblHash(uint value)
+{
+  uint state = value * 747796405u + 2891336453u;
+  uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+  return (word >> 22u) ^ word;
+}
+
+// Point i in [0,1)^2 of a lattice that can be cut off anywhere (Roberts 2018, R2), moved around by `shift`. 24 bits, so never 1.
+vec2 iblLatticePoint(uint i, uint shift)
+{
+  uint x = i * 3242174889u + shift;
+  uint y = i * 2447445414u + iblHash(shift);
+  return vec2(float(x >> 8u), float(y >> 8u)) * 5.9604644775390625e-8;
 }
 
 // cos^2 and sin^2 of the angle between normal and half vector, drawn from D_GGX(h) NoH [1/sr] (Walter et al. 2007, eq. 35).

@@ -7,6 +7,7 @@
 #include "vtkIBLEnvironment.h"
 #include "vtkIBLGL.h"
 #include "vtkIBLIrradiance.h"
+#include "vtkIBLShaderSource.h"
 #include "vtkIBLSpecularChain.h"
 
 #include "vtkCamera.h"
@@ -16,16 +17,21 @@
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
 
+#include <algorithm>
+
 vtkStandardNewMacro(vtkIBLLighting);
 
 struct vtkIBLLighting::Bindings
 {
-  Bindings(vtkOpenGLRenderWindow* window, const vtkIBLSpecularChain& chain, const vtkIBLBRDFTable& table)
-    : EvenLayers(window, chain.GetEvenLayers())
+  Bindings(vtkOpenGLRenderWindow* window, const vtkIBLCubeMap& cubeMap, const vtkIBLSpecularChain& chain,
+    const vtkIBLBRDFTable& table)
+    : Radiance(window, cubeMap.GetTexture())
+    , EvenLayers(window, chain.GetEvenLayers())
     , OddLayers(window, chain.GetOddLayers())
     , Table(window, table.GetTexture())
   {
   }
+  vtkIBLGL::BoundTexture Radiance;
   vtkIBLGL::BoundTexture EvenLayers;
   vtkIBLGL::BoundTexture OddLayers;
   vtkIBLGL::BoundTexture Table;
@@ -84,6 +90,20 @@ vtkIBLBRDFTable* vtkIBLLighting::GetBRDFTable() const
   return this->BRDFTable;
 }
 
+void vtkIBLLighting::SetSamplesPerPixel(int samples)
+{
+  samples = std::clamp(samples, 0, 65536);
+  if (samples != this->SamplesPerPixel)
+  {
+    if ((samples > 0) != (this->SamplesPerPixel > 0))
+    {
+      this->ShaderTime.Modified();
+    }
+    this->SamplesPerPixel = samples;
+    this->Modified();
+  }
+}
+
 bool vtkIBLLighting::Update(vtkOpenGLRenderWindow* window)
 {
   return this->BRDFTable->Update(window) && this->Irradiance->Update(window) && this->SpecularChain->Update(window);
@@ -100,7 +120,7 @@ void vtkIBLLighting::ReleaseGraphicsResources(vtkWindow* window)
 
 void vtkIBLLighting::Activate(vtkOpenGLRenderWindow* window)
 {
-  this->Bound = std::make_unique<Bindings>(window, *this->SpecularChain, *this->BRDFTable);
+  this->Bound = std::make_unique<Bindings>(window, *this->CubeMap, *this->SpecularChain, *this->BRDFTable);
 }
 
 void vtkIBLLighting::Deactivate()
@@ -134,9 +154,29 @@ void vtkIBLLighting::GetEnvironmentFromView(vtkRenderer* renderer, float rows[9]
 
 void vtkIBLLighting::SetShaderParameters(vtkShaderProgram* program, vtkRenderer* renderer)
 {
-  program->SetUniformi("iblEvenLayers", this->Bound->EvenLayers.GetUnit());
-  program->SetUniformi("iblOddLayers", this->Bound->OddLayers.GetUnit());
+  // Layers are stored divided by a scale, the cube map as it is.
+  const double stored = this->SamplesPerPixel > 0 ? 1.0 : this->SpecularChain->GetStoredScale();
   program->SetUniformi("iblBRDFTable", this->Bound->Table.GetUnit());
+  if (this->SamplesPerPixel > 0)
+  {
+    program->SetUniformi("iblRadiance", this->Bound->Radiance.GetUnit());
+    program->SetUniformi("iblSamplesPerPixel", this->SamplesPerPixel);
+  }
+  else
+  {
+    program->SetUniformi("iblEvenLayers", this->Bound->EvenLayers.GetUnit());
+    program->SetUniformi("iblOddLayers", this->Bound->OddLayers.GetUnit());
+    float irradiance[9][3];
+    this->Irradiance->GetPolynomial(irradiance);
+    for (auto& factor : irradiance)
+    {
+      for (float& x : factor)
+      {
+        x = static_cast<float>(x / stored);
+      }
+    }
+    program->SetUniform3fv("iblIrradiance", 9, irradiance);
+  }
 
   float rows[9];
   this->GetEnvironmentFromView(renderer, rows);
@@ -146,23 +186,15 @@ void vtkIBLLighting::SetShaderParameters(vtkShaderProgram* program, vtkRenderer*
     columns[3 * (i % 3) + i / 3] = rows[i];
   }
   program->SetUniformMatrix3x3("iblEnvironmentFromView", columns);
-
-  const double stored = this->SpecularChain->GetStoredScale();
-  float irradiance[9][3];
-  this->Irradiance->GetPolynomial(irradiance);
-  for (auto& factor : irradiance)
-  {
-    for (float& x : factor)
-    {
-      x = static_cast<float>(x / stored);
-    }
-  }
-  program->SetUniform3fv("iblIrradiance", 9, irradiance);
-
   double rgb[3];
   this->GetEnvironment()->GetRadianceScale(rgb);
   const float scale[3] = { float(rgb[0] * stored), float(rgb[1] * stored), float(rgb[2] * stored) };
   program->SetUniform3f("iblRadianceScale", scale);
   program->SetUniformi("iblParallelProjection", renderer->GetActiveCamera()->GetParallelProjection());
   program->SetUniformi("iblEnergyCompensation", this->EnergyCompensation);
+}
+
+std::string vtkIBLLighting::GetShaderChunk() const
+{
+  return vtkIBLAssembleChunk(this->SamplesPerPixel > 0 ? "vtkIBLLightingSampled.glsl" : "vtkIBLLighting.glsl");
 }

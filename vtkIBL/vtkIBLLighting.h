@@ -15,6 +15,7 @@
 #include "vtkObject.h"
 
 #include <memory> // For std::unique_ptr
+#include <string> // For std::string
 
 class vtkIBLBRDFTable;
 class vtkIBLCubeMap;
@@ -62,6 +63,16 @@ public:
   vtkBooleanMacro(EnergyCompensation, bool);
   ///@}
 
+  ///@{
+  /**
+   * 0, the default: shade by prefiltered layers and the table, at a handful of texture reads a pixel. Above: estimate
+   * the reflection integral itself with so many samples a pixel, read from the cube map: slow, and what the fast form
+   * is judged by; 1024 leave about 1 %. At most 65536. Takes effect with the next frame.
+   */
+  void SetSamplesPerPixel(int samples);
+  vtkGetMacro(SamplesPerPixel, int);
+  ///@}
+
   /**
    * Brings all stages up to date in `window`. Returns whether there is light to shade with, be it an older one.
    */
@@ -70,11 +81,24 @@ public:
   ///@{
   /**
    * Between these two the textures are bound to units of their own, and SetShaderParameters() gives a program that
-   * contains vtkIBLLighting.glsl all it needs to shade what `renderer`'s camera sees.
+   * contains GetShaderChunk() all it needs to shade what `renderer`'s camera sees.
    */
   void Activate(vtkOpenGLRenderWindow* window);
   void Deactivate();
   void SetShaderParameters(vtkShaderProgram* program, vtkRenderer* renderer);
+  ///@}
+
+  ///@{
+  /**
+   * GLSL 1.50 whose global names all begin with ibl, and which defines
+   *
+   *     vec3 iblEnvironmentLight(vec3 normalVC, vec3 positionVC, vec3 albedo, float perceptualRoughness, float
+   * metallic, float baseF0, vec3 edgeTint)
+   *
+   * the radiance that a surface sends to the camera; and when that text last changed.
+   */
+  std::string GetShaderChunk() const;
+  vtkMTimeType GetShaderTime() const { return this->ShaderTime.GetMTime(); }
   ///@}
 
   /**
@@ -102,6 +126,8 @@ private:
   vtkNew<vtkIBLSpecularChain> SpecularChain;
   vtkNew<vtkIBLBRDFTable> BRDFTable;
   bool EnergyCompensation = true;
+  int SamplesPerPixel = 0;
+  vtkTimeStamp ShaderTime;
 };
 
 #endif

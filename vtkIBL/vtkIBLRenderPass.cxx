@@ -6,7 +6,6 @@
 #include "vtkIBLEnvironment.h"
 #include "vtkIBLGLHeader.h"
 #include "vtkIBLLighting.h"
-#include "vtkIBLShaderSource.h"
 
 #include "vtkFramebufferPass.h"
 #include "vtkImageData.h"
@@ -23,6 +22,7 @@
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -315,8 +315,7 @@ bool vtkIBLRenderPass::PostReplaceShaderValues(
   {
     return true;
   }
-  static const std::string functions = vtkIBLAssembleChunk("vtkIBLLighting.glsl");
-  vtkShaderProgram::Substitute(fragmentShader, "void main()", functions + "void main()", false);
+  vtkShaderProgram::Substitute(fragmentShader, "void main()", this->Lighting->GetShaderChunk() + "void main()", false);
   if (this->OutputEncoding == Linear)
   {
     vtkShaderProgram::Substitute(fragmentShader, "color = pow(color, vec3(1.0/2.2));", "", false);
@@ -336,5 +335,5 @@ bool vtkIBLRenderPass::SetShaderParameters(
 
 vtkMTimeType vtkIBLRenderPass::GetShaderStageMTime()
 {
-  return this->ShaderTime.GetMTime();
+  return std::max(this->ShaderTime.GetMTime(), this->Lighting->GetShaderTime());
 }

@@ -171,3 +171,59 @@ TEST_F(TestShadingGL, RotationTurnsTheLight)
   this->Environment->SetRotation(123);
   expect({ 0, 1, 0 });
 }
+
+// Sampling converges to the reflection integral over a real HDRI: GGX lobe and Lambert's base, both sides of the mirror
+// direction. 4096 samples leave about 1 % on a map without suns. Mutants: a density off by a factor, VoH for NoV in the
+// Fresnel term, the shift of one axis only.
+TEST_F(TestShadingGL, SampledModeIsTheIntegral)
+{
+  const std::string path = GetHDRI("courtyard");
+  if (path.empty())
+  {
+    GTEST_SKIP() << "no HDRIs: install blender-data";
+  }
+  this->Environment->SetFileName(path.c_str());
+  this->Pass->GetLighting()->EnergyCompensationOff();
+  this->Pass->GetLighting()->SetSamplesPerPixel(4096);
+  ASSERT_TRUE(this->Environment->Update());
+  const reference::Environment environment = ToReference(this->Environment->GetRadianceImage());
+  for (double metallic : { 0.0, 1.0 })
+  {
+    for (double roughness : { 0.2, 0.5, 1.0 })
+    {
+      for (double NoV : { 0.9, 0.3 })
+      {
+        const RGB color = { 0.9, 0.6, 0.3 };
+        this->SetMaterial(metallic, roughness, color);
+        this->SetNoV(NoV);
+        const RGB f0 = metallic > 0 ? color : RGB{ 0.04, 0.04, 0.04 };
+        const RGB diffuse = metallic > 0 ? RGB{} : color;
+        const RGB truth = reference::FullBRDFRadiance(
+          environment, { std::sqrt(1 - NoV * NoV), 0, NoV }, { 0, 0, 1 }, roughness, f0, diffuse);
+        const RGB seen = this->Capture();
+        for (int k = 0; k < 3; ++k)
+        {
+          EXPECT_NEAR(seen[k] / truth[k], 1, 0.015)
+            << "metallic " << metallic << " roughness " << roughness << " NoV " << NoV;
+        }
+      }
+    }
+  }
+}
+
+// The furnace is as white when sampled, and with it on and off in turn the shader follows. Mutant: the stage's time not
+// bumped.
+TEST_F(TestShadingGL, SampledFurnaceIsWhite)
+{
+  this->UseConstantEnvironment(2.0);
+  for (int samples : { 1024, 0, 1024 })
+  {
+    this->Pass->GetLighting()->SetSamplesPerPixel(samples);
+    for (double metallic : { 0.0, 0.5, 1.0 })
+    {
+      this->SetMaterial(metallic, 0.6, { 1, 1, 1 });
+      this->SetNoV(0.4);
+      EXPECT_NEAR(this->Capture()[1], 2.0, samples > 0 ? 1e-2 : 2e-3) << samples << " " << metallic;
+    }
+  }
+}
