@@ -49,6 +49,7 @@ int main(int argc, char* argv[])
   vtkNew<vtkIBLEnvironment> environment;
   environment->SetFileName(hdri.c_str());
   environment->NormalizeExposureOn();
+  environment->SetIntensity(0.7); // copper is bright: leave room for its highlights
   vtkNew<vtkIBLRenderPass> ibl;
   ibl->SetEnvironment(environment);
   ibl->BackgroundVisibleOn();

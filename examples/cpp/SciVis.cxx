@@ -43,13 +43,13 @@ vtkSmartPointer<vtkImageData> MakeTurbulence(int n)
   {
     double K[3], U[3], Phase;
   };
-  std::vector<Mode> modes(40);
+  std::vector<Mode> modes(96);
   vtkNew<vtkMinimalStandardRandomSequence> random;
   random->SetSeed(7);
   auto next = [&] { return random->Next(), random->GetValue(); };
   for (Mode& mode : modes)
   {
-    const double length = 2.0 * std::pow(6.0, next());
+    const double length = 4.0 * std::pow(5.0, next());
     double axis[3] = { next() - 0.5, next() - 0.5, next() - 0.5 };
     double direction[3] = { next() - 0.5, next() - 0.5, next() - 0.5 };
     vtkMath::Normalize(axis);
@@ -107,8 +107,8 @@ vtkSmartPointer<vtkImageData> MakeTurbulence(int n)
         }
         // Fade towards a ball, so that no vortex is cut by the box.
         const double radius = vtkMath::Norm(x);
-        const double inside = std::min(std::max((1.0 - radius) / 0.25, 0.0), 1.0);
-        q->SetValue(point, static_cast<float>(-0.5 * trace * inside - (1.0 - inside) * 50.0));
+        const double inside = std::min(std::max((1.0 - radius) / 0.3, 0.0), 1.0);
+        q->SetValue(point, static_cast<float>(-0.5 * trace * inside));
         speed->SetValue(point, static_cast<float>(vtkMath::Norm(u)));
       }
     });
@@ -122,7 +122,7 @@ vtkSmartPointer<vtkPolyData> MakeVortices(int n)
   vtkSmartPointer<vtkImageData> flow = MakeTurbulence(n);
   vtkNew<vtkFlyingEdges3D> vortices;
   vortices->SetInputData(flow);
-  vortices->SetValue(0, 16.0);
+  vortices->SetValue(0, 30.0);
   vortices->InterpolateAttributesOn();
   vortices->Update();
   vtkSmartPointer<vtkPolyData> surface = vortices->GetOutput();
@@ -161,7 +161,7 @@ vtkSmartPointer<vtkPolyData> ReadSurface(const std::string& fileName)
   return normals->GetOutput();
 }
 
-// Viridis at five points; the colour map is the data's, so the light that falls on it is normalised and white.
+// Viridis at five points, decoded from what a screen shows to what a surface reflects, as VTK's PBR shading takes it.
 vtkSmartPointer<vtkColorTransferFunction> MakeColors(const double range[2])
 {
   const double colors[5][3] = { { 0.267, 0.005, 0.329 }, { 0.229, 0.322, 0.546 }, { 0.128, 0.567, 0.551 },
@@ -170,7 +170,7 @@ vtkSmartPointer<vtkColorTransferFunction> MakeColors(const double range[2])
   for (int i = 0; i < 5; ++i)
   {
     const double value = range[0] + (range[1] - range[0]) * i / 4.0;
-    map->AddRGBPoint(value, colors[i][0], colors[i][1], colors[i][2]);
+    map->AddRGBPoint(value, std::pow(colors[i][0], 2.2), std::pow(colors[i][1], 2.2), std::pow(colors[i][2], 2.2));
   }
   return map;
 }
