@@ -7,6 +7,7 @@
 #include "vtkIBLCubeMap.h"
 #include "vtkIBLSpecularChain.h"
 
+#include <vtkCallbackCommand.h>
 #include <vtkFloatArray.h>
 #include <vtkHardwareSelector.h>
 #include <vtkImageData.h>
@@ -20,8 +21,16 @@
 #include <vtkPolyDataTangents.h>
 #include <vtkRenderStepsPass.h>
 #include <vtkSelection.h>
+#include <vtkShader.h>
+#include <vtkShaderProgram.h>
 #include <vtkSphereSource.h>
 #include <vtkTexture.h>
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 
 namespace
 {
@@ -178,6 +187,51 @@ TEST_F(TestRenderPassGL, AddsLightAndLeavesTheRestToVTK)
   plane->SetOrigin(-0.3, 0, 0);
   this->Mapper->AddClippingPlane(plane);
   this->ExpectOnlyLightIsAdded("clipping plane");
+}
+
+// The programs that VTK puts together with our text in them are valid GLSL to Khronos' own compiler, not only to the
+// driver at hand; fast and sampled, display and linear, plain and with a coat. Mutant: bitfieldReverse, which GLSL 1.50
+// lacks and Mesa may let pass.
+TEST_F(TestRenderPassGL, MakesValidPrograms)
+{
+  if (std::system("glslangValidator --version > /dev/null 2>&1") != 0)
+  {
+    GTEST_SKIP() << "no glslangValidator: install glslang-tools";
+  }
+  std::string source;
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetClientData(&source);
+  observer->SetCallback(
+    [](vtkObject*, unsigned long, void* client, void* program) {
+      *static_cast<std::string*>(client) = static_cast<vtkShaderProgram*>(program)->GetFragmentShader()->GetSource();
+    });
+  this->Mapper->AddObserver(vtkCommand::UpdateShaderEvent, observer);
+  const std::filesystem::path file =
+    std::filesystem::temp_directory_path() / ("vtkibl-mapper-" + std::to_string(getpid()) + ".frag");
+  auto isValid = [&]
+  {
+    std::ofstream(file) << source;
+    return std::system(("glslangValidator " + file.string()).c_str()) == 0;
+  };
+  for (int samples : { 0, 16 })
+  {
+    for (int encoding : { vtkIBLRenderPass::Display, vtkIBLRenderPass::Linear })
+    {
+      for (double coat : { 0.0, 0.5 })
+      {
+        this->Pass->GetLighting()->SetSamplesPerPixel(samples);
+        this->Pass->SetOutputEncoding(encoding);
+        this->Actor->GetProperty()->SetCoatStrength(coat);
+        this->Render(this->Pass);
+        ASSERT_NE(source.find("iblEnvironmentLight("), std::string::npos);
+        EXPECT_EQ(source.find("pow(color, vec3(1.0/2.2))") == std::string::npos, encoding == vtkIBLRenderPass::Linear);
+        EXPECT_TRUE(isValid()) << "samples " << samples << " coat " << coat;
+      }
+    }
+  }
+  source += "vec3 broken() { return nothing; }\n"; // the validator does refuse
+  EXPECT_FALSE(isValid());
+  std::filesystem::remove(file);
 }
 
 TEST_F(TestRenderPassGL, KeepsOpacityAndDepthPeeling)
