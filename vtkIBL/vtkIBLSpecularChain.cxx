@@ -14,6 +14,12 @@
 
 vtkStandardNewMacro(vtkIBLSpecularChain);
 
+namespace
+{
+// The roughest layers have a sixteenth of this, and below 16^2 a smooth lobe shows its texels, however small the source.
+constexpr int leastFaceSize = 256;
+}
+
 struct vtkIBLSpecularChain::Internals
 {
   vtkIBLGL::Texture Chains[2];
@@ -95,10 +101,10 @@ vtkTypeInt64 vtkIBLSpecularChain::Build(vtkOpenGLRenderWindow* window)
     gl.Prefilter = Program::Compute(window, "vtkIBLSpecularPrefilterCS.glsl");
   }
   const int sourceSize = this->CubeMap->GetOutputFaceSize();
-  int faceSize = sourceSize;
-  while (faceSize > this->FaceSize)
+  int faceSize = leastFaceSize;
+  while (2 * faceSize <= this->FaceSize)
   {
-    faceSize /= 2;
+    faceSize *= 2;
   }
   const double mean = this->CubeMap->GetMeanLuminance();
   const double storedScale = mean > 0.0 ? mean : 1.0;

@@ -50,10 +50,10 @@ public:
 
   ///@{
   /**
-   * Texels along a face's edge of the sharpest layer, rounded down to a power of two in [16, 2048], and never more than
-   * the cube map has. Default 256. Smaller blurs mirrors.
+   * Texels along a face's edge of the sharpest layer, rounded down to a power of two in [256, 2048]; the roughest has a
+   * sixteenth. Default 256. Larger sharpens mirrors.
    */
-  vtkSetClampMacro(FaceSize, int, 16, 2048);
+  vtkSetClampMacro(FaceSize, int, 256, 2048);
   vtkGetMacro(FaceSize, int);
   ///@}
 

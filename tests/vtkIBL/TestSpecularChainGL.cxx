@@ -6,6 +6,8 @@
 #include "vtkIBLEnvironment.h"
 #include "vtkIBLSpecularChain.h"
 
+#include <algorithm>
+
 namespace reference = vtkIBLReference;
 
 class TestSpecularChainGL : public GLTest
@@ -119,14 +121,13 @@ TEST_F(TestSpecularChainGL, OfRealPanoramasAgreesWithTheIntegral)
   }
 }
 
-// A sun far above what half floats hold neither overflows nor turns neighbours black. Mutant: no clamp (infinity, then
-// NaN when interpolated).
+// A sun of one texel, 2e5 times the mean, is more than half floats hold: it is cut there, and neither overflows nor
+// turns neighbours black. Mutant: no clamp (infinity, then NaN when interpolated).
 TEST_F(TestSpecularChainGL, HoldsASunAboveHalfRange)
 {
-  this->Environment->SetInputData(MakePanorama(128,
-    [](Vec3 d) {
-      return d.y > 0.9995 ? RGB{ 1e9, 1e9, 1e9 } : RGB{ 0.01, 0.01, 0.01 };
-    }));
+  vtkSmartPointer<vtkImageData> panorama = MakePanorama(512, [](Vec3) { return RGB{ 0.01, 0.01, 0.01 }; });
+  std::fill_n(static_cast<float*>(panorama->GetScalarPointer(300, 200, 0)), 3, 1e9f);
+  this->Environment->SetInputData(panorama);
   this->Bake();
   for (int layer = 0; layer < vtkIBLSpecularChain::GetNumberOfLayers(); ++layer)
   {
@@ -135,6 +136,11 @@ TEST_F(TestSpecularChainGL, HoldsASunAboveHalfRange)
     for (vtkIdType i = 0; i < 3 * image->GetNumberOfPoints(); ++i)
     {
       ASSERT_TRUE(std::isfinite(value[i]) && value[i] >= 0) << "layer " << layer;
+    }
+    if (layer == 0)
+    {
+      const float brightest = *std::max_element(value, value + 3 * image->GetNumberOfPoints());
+      EXPECT_NEAR(brightest / this->Chain->GetStoredScale(), 65504, 32); // so the clamp was at work
     }
   }
 }
