@@ -3,20 +3,26 @@
 #include "vtkIBLSpecularChain.h"
 
 #include "vtkIBLCubeMap.h"
+#include "vtkIBLEnvironment.h"
 #include "vtkIBLGL.h"
+#include "vtkIBLRadianceImage.h"
 #include "vtkIBLSampleTable.h"
 #include "vtkIBLShaderFunctions.h"
+#include "vtkIBLSpectrum.h"
 
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
+#include "vtkSMPTools.h"
 
 #include <algorithm>
+#include <vector>
 
 vtkStandardNewMacro(vtkIBLSpecularChain);
 
 namespace
 {
-// The roughest layers have a sixteenth of this, and below 16^2 a smooth lobe shows its texels, however small the source.
+// The roughest layers have a sixteenth of this, and below 16^2 a smooth lobe shows its texels, however small the
+// source.
 constexpr int leastFaceSize = 256;
 }
 
@@ -37,6 +43,7 @@ void vtkIBLSpecularChain::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "CubeMap: " << this->CubeMap.Get() << "\n"
+     << indent << "Engine: " << (this->Engine == Spectral ? "Spectral" : "Sampled") << "\n"
      << indent << "NumberOfSamples: " << this->NumberOfSamples << "\n"
      << indent << "FaceSize: " << this->FaceSize << "\n"
      << indent << "StoredScale: " << this->StoredScale << "\n";
@@ -115,8 +122,13 @@ vtkTypeInt64 vtkIBLSpecularChain::Build(vtkOpenGLRenderWindow* window)
   ActiveProgram active(window, gl.Prefilter);
   gl.Prefilter.Set("source", source.GetUnit());
   gl.Prefilter.Set("radianceScale", float(1.0 / storedScale));
+  int spectralFrom = IBL_LAYER_COUNT;
   vtkTypeInt64 texels = 0;
-  for (int layer = 0; layer < IBL_LAYER_COUNT; ++layer)
+  if (this->Engine == Spectral)
+  {
+    texels += this->BuildSpectralLayers(chains, faceSize, storedScale, spectralFrom);
+  }
+  for (int layer = 0; layer < spectralFrom; ++layer)
   {
     const int size = faceSize >> (layer / 2);
     const vtkIBLSampleTable table =
@@ -137,6 +149,47 @@ vtkTypeInt64 vtkIBLSpecularChain::Build(vtkOpenGLRenderWindow* window)
   gl.Chains[1] = std::move(chains[1]);
   this->OutputFaceSize = faceSize;
   this->StoredScale = storedScale;
+  return texels;
+}
+
+vtkTypeInt64 vtkIBLSpecularChain::BuildSpectralLayers(
+  vtkIBLGL::Texture* chains, int faceSize, double storedScale, int& firstLayer)
+{
+  const vtkIBLRadianceImage radiance = this->CubeMap->GetEnvironment()->GetRadiance();
+  if (radiance.Faces != 1)
+  {
+    return 0;
+  }
+  const vtkIBLParallelFor parallelFor = [](int count, const std::function<void(int)>& body)
+  {
+    vtkSMPTools::For(0, count, 1,
+      [&](vtkIdType begin, vtkIdType end)
+      {
+        for (vtkIdType i = begin; i < end; ++i)
+        {
+          body(static_cast<int>(i));
+        }
+      });
+  };
+  firstLayer = 1;
+  while (vtkIBLSpectrum::RequiredOrder(GetPerceptualRoughness(firstLayer)) > 128)
+  {
+    ++firstLayer;
+  }
+  const int order = vtkIBLSpectrum::RequiredOrder(GetPerceptualRoughness(firstLayer));
+  const vtkIBLSpectrum spectrum(radiance, order, parallelFor);
+  vtkTypeInt64 texels = 0;
+  for (int layer = firstLayer; layer < IBL_LAYER_COUNT; ++layer)
+  {
+    const int size = faceSize >> (layer / 2);
+    std::vector<float> rgb(std::size_t(18) * size * size);
+    spectrum.Filter(GetPerceptualRoughness(layer), size, rgb.data(), parallelFor);
+    std::transform(rgb.begin(), rgb.end(), rgb.begin(),
+      [storedScale](float x) { return std::min(static_cast<float>(x / storedScale), 65504.0f); });
+    glTextureSubImage3D(chains[layer % 2].Id(), layer / 2, 0, 0, 0, size, size, 6, GL_RGB, GL_FLOAT, rgb.data());
+    texels += vtkTypeInt64(6) * size * size;
+  }
+  vtkIBLGL::CheckErrors("uploading layers");
   return texels;
 }
 

@@ -39,6 +39,20 @@ public:
   vtkIBLCubeMap* GetCubeMap() const;
   ///@}
 
+  enum Engines
+  {
+    Sampled, ///< filtered importance sampling of the cube map, on the GPU: for any source
+    Spectral ///< spherical harmonics and bright texels, on the CPU: for lat-long images, and exact to 1e-4
+  };
+  ///@{
+  /**
+   * What makes the layers. Spectral makes those from roughness 0.2 up, and needs a lat-long environment; sharper
+   * layers, and all of a cube environment's, are sampled either way. Default Sampled.
+   */
+  vtkSetClampMacro(Engine, int, Sampled, Spectral);
+  vtkGetMacro(Engine, int);
+  ///@}
+
   ///@{
   /**
    * Samples a texel at roughness 1, in [16, 65536]; sharper layers take fewer, as their lobes are narrower. Default
@@ -97,6 +111,9 @@ private:
   struct Internals;
   std::unique_ptr<Internals> Internal;
   vtkSmartPointer<vtkIBLCubeMap> CubeMap;
+  vtkTypeInt64 BuildSpectralLayers(vtkIBLGL::Texture* chains, int faceSize, double storedScale, int& firstLayer);
+
+  int Engine = Sampled;
   int NumberOfSamples = 512;
   int FaceSize = 256;
   int OutputFaceSize = 0;

@@ -173,7 +173,7 @@ TEST_F(TestShadingGL, RotationTurnsTheLight)
 }
 
 // Sampling converges to the reflection integral over a real HDRI: GGX lobe and Lambert's base, both sides of the mirror
-// direction. 4096 samples leave about 1 % on a map without suns. Mutants: a density off by a factor, VoH for NoV in the
+// direction. 4096 samples leave about 1 % on a map without suns. Mutants: a weight off by a tenth, VoH for NoV in the
 // Fresnel term, the shift of one axis only.
 TEST_F(TestShadingGL, SampledModeIsTheIntegral)
 {
