@@ -25,8 +25,11 @@ std::array<float, 3> MeanOfSoundNeighbours(const vtkIBLRadianceImage& image, int
   {
     for (int i = column - 1; i <= column + 1; ++i)
     {
-      // Longitude wraps; a cube face ends.
-      const int wrapped = image.Faces == 1 ? (i + image.Width) % image.Width : std::clamp(i, 0, image.Width - 1);
+      if (image.Faces == 6 && (i < 0 || i >= image.Width))
+      {
+        continue; // a cube face ends; longitude wraps
+      }
+      const int wrapped = (i + image.Width) % image.Width;
       const float* rgb = &image.RGB[3 * ((static_cast<std::size_t>(face) * image.Height + j) * image.Width + wrapped)];
       if (IsSound(rgb))
       {
@@ -55,18 +58,28 @@ vtkIBLRadianceFaults vtkIBLCleanRadiance(vtkIBLRadianceImage& image)
   for (std::size_t texel = 0; texel < image.GetNumberOfTexels(); ++texel)
   {
     float* rgb = &image.RGB[3 * texel];
-    if (!IsSound(rgb))
+    bool notFinite = false;
+    bool tooLarge = false;
+    float least = 0.0f;
+    for (int k = 0; k < 3; ++k)
     {
-      const bool finite = std::isfinite(rgb[0]) && std::isfinite(rgb[1]) && std::isfinite(rgb[2]);
-      ++(finite ? faults.TooLarge : faults.NotFinite);
+      const bool sound = std::abs(rgb[k]) <= vtkIBLLargestRadiance; // false for NaN
+      notFinite = notFinite || !std::isfinite(rgb[k]);
+      tooLarge = tooLarge || (std::isfinite(rgb[k]) && !sound);
+      least = sound ? std::min(least, rgb[k]) : least;
+    }
+    faults.NotFinite += notFinite;
+    faults.TooLarge += tooLarge;
+    faults.Negative += least < 0.0f;
+    faults.MostNegative = std::min(faults.MostNegative, least);
+    if (notFinite || tooLarge)
+    {
       const std::size_t row = texel / image.Width;
       repairs.push_back({ texel,
         MeanOfSoundNeighbours(image, int(row / image.Height), int(row % image.Height), int(texel % image.Width)) });
     }
-    else if (const float least = std::min({ rgb[0], rgb[1], rgb[2] }); least < 0.0f)
+    else if (least < 0.0f)
     {
-      ++faults.Negative;
-      faults.MostNegative = std::min(faults.MostNegative, least);
       std::transform(rgb, rgb + 3, rgb, [](float x) { return std::max(x, 0.0f); });
     }
   }
