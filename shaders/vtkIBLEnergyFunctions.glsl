@@ -25,5 +25,5 @@ vec3 iblMultipleScatter(vec3 f0, vec3 f90, vec2 ab)
 {
   float missing = 1.0 - (ab.x + ab.y);
   vec3 mean = f0 + (f90 - f0) * (1.0 / 21.0);
-  return missing * iblSingleScatter(f0, f90, ab) * mean / (vec3(1.0, 1.0, 1.0) - missing * mean);
+  return missing * iblSingleScatter(f0, f90, ab) * mean / max(vec3(1.0, 1.0, 1.0) - missing * mean, vec3(1e-6, 1e-6, 1e-6));
 }

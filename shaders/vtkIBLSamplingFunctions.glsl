@@ -1,7 +1,7 @@
 // Sample points and the distributions they are warped to. A sampler states its density.
 
-// Point i of n of the Hammersley set, centred: (i + 1/2)/n keeps the spike at 0 away. Below 1 for any i < 2^24. (Bits are
-// reversed by hand, as VTK's own shaders are of a GLSL without bitfieldReverse.)
+// Point i of n of the Hammersley set, centred in both: half a step keeps the spike at 0 away, and the mean unbiased. Below 1 for
+// any n up to 2^23. (Bits are reversed by hand, as VTK's own shaders are of a GLSL without bitfieldReverse.)
 vec2 iblHammersley(uint i, uint n)
 {
   uint bits = (i << 16u) | (i >> 16u);
@@ -9,7 +9,7 @@ vec2 iblHammersley(uint i, uint n)
   bits = ((bits & 0x33333333u) << 2u) | ((bits & 0xCCCCCCCCu) >> 2u);
   bits = ((bits & 0x0F0F0F0Fu) << 4u) | ((bits & 0xF0F0F0F0u) >> 4u);
   bits = ((bits & 0x00FF00FFu) << 8u) | ((bits & 0xFF00FF00u) >> 8u);
-  return vec2((float(i) + 0.5) / float(n), float(bits) * 2.3283064365386962890625e-10);
+  return vec2((float(i) + 0.5) / float(n), float(bits) * 2.3283064365386962890625e-10 + 0.5 / float(n));
 }
 
 // Scrambles an integer (Jarzynski & Olano 2020, PCG).
@@ -43,9 +43,10 @@ vec3 iblVisibleHalfVectorGGX(vec2 u, vec3 V, float alpha)
 {
   vec3 stretched = normalize(vec3(alpha * V.x, alpha * V.y, V.z));
   float phi = 2.0 * iblPi * u.x;
-  float z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
-  float sine = sqrt(clamp(1.0 - z * z, 0.0, 1.0));
-  vec3 h = vec3(sine * cos(phi), sine * sin(phi), z) + stretched;
+  // A cap's point has z = 1 - w; sine and the sum's z follow without a difference of near numbers.
+  float w = u.y * (1.0 + stretched.z);
+  float sine = sqrt(max(w * (2.0 - w), 0.0));
+  vec3 h = vec3(sine * cos(phi) + stretched.x, sine * sin(phi) + stretched.y, (1.0 - u.y) * (1.0 + stretched.z));
   return normalize(vec3(alpha * h.x, alpha * h.y, max(h.z, 1e-9)));
 }
 

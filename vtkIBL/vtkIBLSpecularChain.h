@@ -47,7 +47,7 @@ public:
   ///@{
   /**
    * What makes the layers. Spectral makes those from roughness 0.2 up, and needs a lat-long environment; sharper
-   * layers, and all of a cube environment's, are sampled either way. Default Sampled.
+   * layers, and all of a cube environment's, are sampled either way. Default Spectral.
    */
   vtkSetClampMacro(Engine, int, Sampled, Spectral);
   vtkGetMacro(Engine, int);
@@ -113,7 +113,7 @@ private:
   vtkSmartPointer<vtkIBLCubeMap> CubeMap;
   vtkTypeInt64 BuildSpectralLayers(vtkIBLGL::Texture* chains, int faceSize, double storedScale, int& firstLayer);
 
-  int Engine = Sampled;
+  int Engine = Spectral;
   int NumberOfSamples = 512;
   int FaceSize = 256;
   int OutputFaceSize = 0;

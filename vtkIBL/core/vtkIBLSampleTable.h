@@ -17,6 +17,6 @@ struct vtkIBLSampleTable
 /// face. The level of a sample is that whose texels have the solid angle it stands for, and never below that of the
 /// layer's own texels
 /// (`layerSize`). Samples below the horizon are left out. perceptualRoughness 0 gives the mirror: one sample.
-/// The count falls with the lobe: `maximumSamples` at roughness 1, in proportion to the angle that holds 99 % of the
-/// half vectors.
+/// The count falls with the lobe: `maximumSamples` at roughness 1, and not below 64, in proportion to the angle that
+/// holds 99 % of the half vectors.
 vtkIBLSampleTable vtkIBLMakeSampleTable(double perceptualRoughness, int sourceSize, int layerSize, int maximumSamples);

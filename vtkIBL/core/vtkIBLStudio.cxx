@@ -46,9 +46,9 @@ void vtkIBLMakeStudio(const vtkIBLRadianceImage& image)
 {
   // The camera of a default VTK scene looks along -z: key to its upper left, fill to its right, rim behind the object.
   const Softbox boxes[] = {
-    { Vec3(-0.8, 0.8, 0.9), 0.45, 0.6, 12.0, Vec3(1.0, 0.98, 0.95) },
-    { Vec3(1.0, 0.25, 0.5), 0.35, 0.8, 3.0, Vec3(0.95, 0.98, 1.0) },
-    { Vec3(0.35, 0.7, -1.0), 0.7, 0.15, 8.0, Vec3(1.0, 1.0, 1.0) },
+    { Vec3(-0.8, 0.8, 0.9), 0.45, 0.6, 5.0, Vec3(1.0, 0.98, 0.95) },
+    { Vec3(1.0, 0.25, 0.5), 0.35, 0.8, 1.2, Vec3(0.95, 0.98, 1.0) },
+    { Vec3(0.35, 0.7, -1.0), 0.7, 0.15, 3.5, Vec3(1.0, 1.0, 1.0) },
   };
   Functions shader;
   float* rgb = image.RGB;
@@ -57,9 +57,9 @@ void vtkIBLMakeStudio(const vtkIBLRadianceImage& image)
     for (int column = 0; column < image.Width; ++column, rgb += 3)
     {
       const Vec3 direction = shader.iblDirectionFromEquirect((column + 0.5) / image.Width, (row + 0.5) / image.Height);
-      // Floor 0.12, horizon 0.35, ceiling 0.9.
+      // Floor 0.07, horizon 0.2, ceiling 0.5.
       const double up = direction.y;
-      Vec3 radiance = Vec3(up > 0.0 ? 0.35 + 0.55 * up * up : 0.35 - 0.23 * std::sqrt(-up));
+      Vec3 radiance = Vec3(up > 0.0 ? 0.2 + 0.3 * up * up : 0.2 - 0.13 * std::sqrt(-up));
       for (const Softbox& box : boxes)
       {
         radiance = glm::mix(radiance, box.Radiance * box.Tint, Coverage(box, direction));
