@@ -7,8 +7,9 @@ packages=(
   g++ cmake ninja-build pkg-config
   libvtk9-dev libopenimageio-dev libopenexr-dev libglm-dev libkissfft-dev  # the module
   libegl-dev libegl-mesa0 libgl1-mesa-dri                    # OpenGL without an X server
-  libcli11-dev                                               # examples
+  libcli11-dev nlohmann-json3-dev                            # examples, tool
   libgtest-dev glslang-tools openimageio-tools openexr       # tests
+  libbenchmark-dev libfilament-tools                         # benchmarks, and a peer beside us
   blender-data                                               # eight CC0 HDRIs
   "$@"
 )

@@ -30,6 +30,7 @@ struct vtkIBLSpecularChain::Internals
 {
   vtkIBLGL::Texture Chains[2];
   vtkIBLGL::Program Prefilter;
+  std::vector<vtkIBLBrightTexel> BrightTexels;
 };
 
 vtkIBLSpecularChain::vtkIBLSpecularChain()
@@ -79,6 +80,22 @@ int vtkIBLSpecularChain::GetLayerFaceSize(int layer) const
   return this->OutputFaceSize >> (std::clamp(layer, 0, IBL_LAYER_COUNT - 1) / 2);
 }
 
+int vtkIBLSpecularChain::GetNumberOfBrightTexels() const
+{
+  return static_cast<int>(this->Internal->BrightTexels.size());
+}
+
+double vtkIBLSpecularChain::GetBrightTexel(int index, double direction[3], double radiance[3]) const
+{
+  const vtkIBLBrightTexel& texel = this->Internal->BrightTexels.at(index);
+  for (int k = 0; k < 3; ++k)
+  {
+    direction[k] = texel.Direction[k];
+    radiance[k] = texel.Radiance[k];
+  }
+  return texel.SolidAngle;
+}
+
 const vtkIBLGL::Texture& vtkIBLSpecularChain::GetEvenLayers() const
 {
   return this->Internal->Chains[0];
@@ -122,6 +139,7 @@ vtkTypeInt64 vtkIBLSpecularChain::Build(vtkOpenGLRenderWindow* window)
   ActiveProgram active(window, gl.Prefilter);
   gl.Prefilter.Set("source", source.GetUnit());
   gl.Prefilter.Set("radianceScale", float(1.0 / storedScale));
+  gl.BrightTexels.clear();
   int spectralFrom = IBL_LAYER_COUNT;
   vtkTypeInt64 texels = 0;
   if (this->Engine == Spectral)
@@ -178,6 +196,7 @@ vtkTypeInt64 vtkIBLSpecularChain::BuildSpectralLayers(
   }
   const int order = vtkIBLSpectrum::RequiredOrder(GetPerceptualRoughness(firstLayer));
   const vtkIBLSpectrum spectrum(radiance, order, parallelFor);
+  this->Internal->BrightTexels = spectrum.GetBrightTexels();
   vtkTypeInt64 texels = 0;
   for (int layer = firstLayer; layer < IBL_LAYER_COUNT; ++layer)
   {

@@ -90,6 +90,15 @@ public:
   double GetStoredScale() const { return this->StoredScale; }
   ///@}
 
+  ///@{
+  /**
+   * Texels that the spectral engine took out of the environment before filtering, and gave back as exact lobes: unit
+   * direction in the environment's frame and radiance; returns the solid angle [sr]. None with the sampled engine.
+   */
+  int GetNumberOfBrightTexels() const;
+  double GetBrightTexel(int index, double direction[3], double radiance[3]) const;
+  ///@}
+
   /**
    * Copies one layer back from the GPU, as radiance: n x n x 6 float RGB in GL's face order, row 0 at t = -1. Null when
    * there is none.

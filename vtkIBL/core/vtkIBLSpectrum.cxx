@@ -284,8 +284,8 @@ vtkIBLSpectrum::vtkIBLSpectrum(const vtkIBLRadianceImage& image, int order, cons
     const auto direction = glm::normalize(glm::dvec3(outwards * std::cos(phi), -down, outwards * std::sin(phi)));
     const double solidAngle = 2.0 * Pi / width * 2.0 * std::sin(0.5 * (a + b)) * std::sin(0.5 * (b - a));
     const float* rgb = image.RGB + 3 * texel.Texel;
-    const double above = solidAngle * (1.0 - threshold / texel.Luminance);
-    this->BrightTexels.push_back({ direction, above * glm::dvec3(rgb[0], rgb[1], rgb[2]) });
+    const double above = 1.0 - threshold / texel.Luminance;
+    this->BrightTexels.push_back({ direction, solidAngle, above * glm::dvec3(rgb[0], rgb[1], rgb[2]) });
   }
 
   // Rows to Fourier, less what the bright texels took.
@@ -554,7 +554,7 @@ void vtkIBLSpectrum::Filter(
             if (t2 > 0.0)
             {
               const double w = oneMinusK + k * (1.0 - t2);
-              sum += bright.Power * (t2 / (w * w));
+              sum += bright.Radiance * (bright.SolidAngle * t2 / (w * w));
             }
           }
           for (int c = 0; c < 3; ++c)

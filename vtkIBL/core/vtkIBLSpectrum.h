@@ -18,11 +18,13 @@
 /// Runs body(i) for i in [0, count), in any order and on any thread.
 using vtkIBLParallelFor = std::function<void(int count, const std::function<void(int)>& body)>;
 
-/// A texel that stands for more light than its share: unit direction, and radiance times solid angle [sr].
+/// A texel that stands for more light than its share: unit direction, solid angle [sr], and the radiance that was taken
+/// out.
 struct vtkIBLBrightTexel
 {
   glm::dvec3 Direction;
-  glm::dvec3 Power;
+  double SolidAngle;
+  glm::dvec3 Radiance;
 };
 
 class vtkIBLSpectrum

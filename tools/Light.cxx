@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: Copyright (c) vtkIBL authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Tool.h"
+
+#include "vtkIBLBRDFTable.h"
+#include "vtkIBLCubeMap.h"
+#include "vtkIBLImageReader.h"
+#include "vtkIBLIrradiance.h"
+#include "vtkIBLLighting.h"
+#include "vtkIBLSpecularChain.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkMath.h>
+
+#include <cmath>
+
+namespace
+{
+// Shares of the bar.
+constexpr double ReadShare = 0.3;
+
+void ShowReading(vtkObject*, unsigned long, void* progress, void* share)
+{
+  static_cast<tool::Progress*>(progress)->Set(ReadShare * *static_cast<double*>(share), "reading the environment");
+}
+}
+
+vtkSmartPointer<vtkIBLEnvironment> tool::ReadEnvironment(const std::string& fileName, Progress& progress)
+{
+  vtkNew<vtkIBLImageReader> reader;
+  reader->SetFileName(fileName.c_str());
+  reader->SetMaximumWidth(4096); // vtkIBLEnvironment's own
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetCallback(ShowReading);
+  observer->SetClientData(&progress);
+  const unsigned long tag = reader->AddObserver(vtkCommand::ProgressEvent, observer);
+  reader->Update();
+  reader->RemoveObserver(tag); // the bar may go before the reader does
+  ThrowIfError();
+
+  auto environment = vtkSmartPointer<vtkIBLEnvironment>::New();
+  environment->SetInputConnection(reader->GetOutputPort());
+  const bool lit = environment->Update();
+  ThrowIfError(fileName + ": "); // with an error the light is not that of the file
+  if (!lit)
+  {
+    throw Failure("too little memory for '" + fileName + "'");
+  }
+  if (!TakeWarning().empty())
+  {
+    PrintWarning("'" + fileName + "' had " + std::to_string(environment->GetNumberOfNotFiniteTexels()) +
+      " NaN or infinite, " + std::to_string(environment->GetNumberOfTooLargeTexels()) + " too large and " +
+      std::to_string(environment->GetNumberOfNegativeTexels()) + " negative texels; they were replaced");
+  }
+  return environment;
+}
+
+void tool::StartWindow(vtkIBLOffscreenWindow* window, Size size)
+{
+  window->SetSize(size.Width, size.Height);
+  if (!window->SupportsOpenGL())
+  {
+    throw Failure(OneLine(window->GetOpenGLSupportMessage()));
+  }
+}
+
+void tool::BuildLighting(vtkIBLLighting* lighting, vtkIBLOffscreenWindow* window, Progress& progress)
+{
+  struct
+  {
+    vtkIBLStage* Stage;
+    double Share;
+    const char* Doing;
+  } const steps[] = { { lighting->GetBRDFTable(), 0.30, "BRDF table" }, { lighting->GetCubeMap(), 0.35, "cube map" },
+    { lighting->GetIrradiance(), 0.40, "irradiance" }, { lighting->GetSpecularChain(), 0.45, "specular chain" } };
+  for (const auto& step : steps)
+  {
+    progress.Set(step.Share, step.Doing);
+    const bool built = step.Stage->Update(window);
+    ThrowIfError();
+    if (!built)
+    {
+      throw Failure(std::string("the ") + step.Doing + " could not be built");
+    }
+  }
+}
+
+tool::JSON tool::DescribeEnvironment(const std::string& fileName, vtkIBLEnvironment* environment)
+{
+  int dimensions[3];
+  environment->GetRadianceImage()->GetDimensions(dimensions);
+  JSON json;
+  json["source"] = fileName;
+  json["size"] = { { "width", dimensions[0] }, { "height", dimensions[1] }, { "faces", dimensions[2] } };
+  json["meanLuminance"] = environment->GetMeanLuminance();
+  return json;
+}
+
+std::array<double, 3> tool::GetTexelDirection(const int dimensions[3], int i, int j, int k)
+{
+  const double u = (i + 0.5) / dimensions[0];
+  const double v = (j + 0.5) / dimensions[1];
+  if (dimensions[2] == 1)
+  {
+    const double longitude = 2.0 * vtkMath::Pi() * (u - 0.5);
+    const double latitude = vtkMath::Pi() * (v - 0.5);
+    return { std::cos(longitude) * std::cos(latitude), std::sin(latitude), std::sin(longitude) * std::cos(latitude) };
+  }
+  const double s = 2.0 * u - 1.0;
+  const double t = 2.0 * v - 1.0;
+  const std::array<double, 3> faces[6] = { { 1, -t, -s }, { -1, -t, s }, { s, 1, t }, { s, -1, -t }, { s, -t, 1 },
+    { -s, -t, -1 } };
+  std::array<double, 3> direction = faces[k];
+  vtkMath::Normalize(direction.data());
+  return direction;
+}
