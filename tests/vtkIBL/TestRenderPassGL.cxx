@@ -447,6 +447,7 @@ TEST_F(TestRenderPassGL, LeavesNoGLObjects)
   {
     pass->SetEnvironment(this->Environment);
     pass->BackgroundVisibleOn();
+    pass->GetLighting()->GetSpecularChain()->SetEngine(vtkIBLSpecularChain::Sampled);
     pass->GetLighting()->GetSpecularChain()->SetNumberOfSamples(16);
     pass->GetLighting()->GetCubeMap()->SetFaceSize(16);
     pass->GetLighting()->GetBRDFTable()->SetNumberOfSamples(16);
