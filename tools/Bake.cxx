@@ -321,7 +321,7 @@ void tool::AddBake(CLI::App& app)
     ->type_name("T");
   command
     ->add_option("--engine", options->Engine,
-      "How layers are computed: spectral (default; layers below roughness 0.2, and all of a\n"
+      "How layers are computed: spectral (default; layers below roughness 0.17, and all of a\n"
       "cube's, are sampled) or sampled")
     ->check(CLI::IsMember({ "spectral", "sampled" }))
     ->type_name("ENGINE");

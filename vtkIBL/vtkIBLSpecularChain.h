@@ -46,7 +46,7 @@ public:
   };
   ///@{
   /**
-   * What makes the layers. Spectral makes those from roughness 0.2 up, and needs a lat-long environment; sharper
+   * What makes the layers. Spectral makes those from roughness 0.17 up, and needs a lat-long environment; sharper
    * layers, and all of a cube environment's, are sampled either way. Default Spectral.
    */
   vtkSetClampMacro(Engine, int, Sampled, Spectral);

@@ -136,7 +136,7 @@ TEST_F(TestSpecularChainGL, OfRealPanoramasAgreesWithTheIntegral)
 }
 
 // The spectral engine on the same maps, sun or no sun: what is left is half floats' rounding, 1.2e-4 on average. Where
-// it does not apply, below roughness 0.2 and for cube environments, layers are the sampled ones. Mutants: layers
+// it does not apply, below roughness 0.17 and for cube environments, layers are the sampled ones. Mutants: layers
 // uploaded to the wrong level, the stored scale forgotten.
 TEST_F(TestSpecularChainGL, SpectralLayersAreTheIntegral)
 {

@@ -1,0 +1,327 @@
+// SPDX-FileCopyrightText: Copyright (c) vtkIBL authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What a user waits for: the first frame and every later one, of a metal sphere, judged by the full reflection
+// integral.
+#include "Benchmark.h"
+
+#include "vtkIBLEnvironment.h"
+#include "vtkIBLGLHeader.h"
+#include "vtkIBLLighting.h"
+#include "vtkIBLRenderPass.h"
+#include "vtkIBLSpecularChain.h"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkFramebufferPass.h>
+#include <vtkOpenGLTexture.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderStepsPass.h>
+#include <vtkRenderer.h>
+#include <vtkSphereSource.h>
+#include <vtkTextureObject.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+
+namespace reference = vtkIBLReference;
+
+namespace vtkIBLBenchmark
+{
+namespace
+{
+constexpr int PictureSize = 512;
+constexpr int Resolution = 222; // 2 * 222 * 221 = 98124 triangles
+constexpr double Roughness = 0.4;
+
+struct FrameEngine
+{
+  const char* Name;
+  const char* Setting;
+  bool PBR;
+  bool VTKLight;       // VTK's own image-based lighting
+  int SamplesPerPixel; // of vtkIBLRenderPass; -1: none
+  bool Spectral;       // vtkIBLSpecularChain's engine
+};
+const FrameEngine FrameEngines[] = {
+  { "VTK", "Phong", false, false, -1, false },
+  { "VTK", "PBR, no IBL", true, false, -1, false },
+  { "VTK", "PBR + IBL", true, true, -1, false },
+  { "vtkIBL", "spectral layers", true, false, 0, true },
+  { "vtkIBL sampled", "sampled layers", true, false, 0, false },
+  { "vtkIBL per pixel", "16 samples a pixel", true, false, 16, false },
+  { "vtkIBL per pixel", "64 samples a pixel", true, false, 64, false },
+};
+
+/// A white metal sphere that fills most of the picture, seen in parallel projection along -z, lit by the map alone.
+class Scene
+{
+public:
+  Scene(const FrameEngine& engine, vtkImageData* panorama)
+  {
+    this->Window->SetSize(PictureSize, PictureSize);
+    this->Window->AddRenderer(this->Renderer);
+    vtkNew<vtkSphereSource> sphere;
+    sphere->SetThetaResolution(Resolution);
+    sphere->SetPhiResolution(Resolution);
+    sphere->SetRadius(1);
+    sphere->Update();
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(sphere->GetOutput());
+    this->Actor->SetMapper(mapper);
+    vtkProperty* property = this->Actor->GetProperty();
+    property->SetColor(1, 1, 1);
+    if (engine.PBR)
+    {
+      property->SetInterpolationToPBR();
+      property->SetMetallic(1);
+      property->SetRoughness(Roughness);
+    }
+    else
+    {
+      property->SetInterpolationToPhong();
+    }
+    this->Renderer->AddActor(this->Actor);
+    vtkCamera* camera = this->Renderer->GetActiveCamera();
+    camera->SetPosition(0, 0, 100); // far, for VTK takes every eye for a perspective one
+    camera->SetFocalPoint(0, 0, 0);
+    camera->SetViewUp(0, 1, 0);
+    camera->SetViewAngle(2 * std::atan(1.1 / 100) * 180 / reference::Pi);
+    camera->SetClippingRange(90, 110);
+    if (engine.VTKLight)
+    {
+      this->Texture->SetInputData(panorama);
+      this->Texture->MipmapOn();
+      this->Texture->InterpolateOn();
+      this->Texture->SetColorModeToDirectScalars();
+      this->Renderer->SetEnvironmentTexture(this->Texture, false);
+      this->Renderer->UseImageBasedLightingOn();
+      this->Renderer->AutomaticLightCreationOff();
+    }
+    if (engine.SamplesPerPixel >= 0)
+    {
+      vtkNew<vtkIBLEnvironment> environment;
+      environment->SetInputData(panorama);
+      this->Pass->SetEnvironment(environment);
+      this->Pass->GetLighting()->SetSamplesPerPixel(engine.SamplesPerPixel);
+      this->Pass->GetLighting()->GetSpecularChain()->SetEngine(
+        engine.Spectral ? vtkIBLSpecularChain::Spectral : vtkIBLSpecularChain::Sampled);
+      this->Renderer->SetPass(this->Pass);
+      this->Renderer->AutomaticLightCreationOff();
+    }
+    this->Window->Initialize();
+  }
+  ~Scene() { this->Window->Finalize(); }
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  Sample Render()
+  {
+    this->Window->MakeCurrent();
+    glFinish();
+    return Clock(
+      [&]
+      {
+        this->Window->Render();
+        this->Window->MakeCurrent();
+        glFinish();
+      });
+  }
+
+  vtkIBLRenderPass* GetPass() { return this->Pass; }
+
+  /// Linear radiance, float RGBA; VTK's own from its display encoding.
+  vtkSmartPointer<vtkImageData> Capture(const FrameEngine& engine)
+  {
+    if (engine.SamplesPerPixel >= 0)
+    {
+      return this->Pass->CaptureRadiance(this->Renderer);
+    }
+    vtkNew<vtkRenderStepsPass> steps;
+    vtkNew<vtkFramebufferPass> framebuffer;
+    framebuffer->SetColorFormat(vtkTextureObject::Float32);
+    framebuffer->SetDelegatePass(steps);
+    this->Renderer->SetPass(framebuffer);
+    this->Window->Render();
+    this->Window->MakeCurrent();
+    vtkTextureObject* texture = framebuffer->GetColorTexture();
+    auto image = vtkSmartPointer<vtkImageData>::New();
+    image->SetDimensions(int(texture->GetWidth()), int(texture->GetHeight()), 1);
+    image->AllocateScalars(VTK_FLOAT, 4);
+    glGetTextureImage(texture->GetHandle(), 0, GL_RGBA, GL_FLOAT,
+      GLsizei(4 * sizeof(float) * image->GetNumberOfPoints()), image->GetScalarPointer());
+    framebuffer->ReleaseGraphicsResources(this->Window);
+    this->Renderer->SetPass(nullptr);
+    auto* value = static_cast<float*>(image->GetScalarPointer());
+    std::transform(
+      value, value + 4 * image->GetNumberOfPoints(), value, [](float x) { return std::pow(std::max(x, 0.0f), 2.2f); });
+    return image;
+  }
+
+private:
+  vtkNew<vtkIBLOffscreenWindow> Window;
+  vtkNew<vtkRenderer> Renderer;
+  vtkNew<vtkActor> Actor;
+  vtkNew<vtkOpenGLTexture> Texture;
+  vtkNew<vtkIBLRenderPass> Pass;
+};
+
+/// Error of the picture against single scattering's full integral, so without energy compensation.
+Error JudgePicture(const Session& session, Scene& scene, const FrameEngine& engine, const Map& map)
+{
+  scene.GetPass()->GetLighting()->EnergyCompensationOff();
+  vtkSmartPointer<vtkImageData> picture = scene.Capture(engine);
+  scene.GetPass()->GetLighting()->EnergyCompensationOn();
+  // A Fibonacci spiral over the disc, out to N.V = 0.3: further out a pixel covers too many directions.
+  const int count = session.Options.Quick ? 24 : 96;
+  std::vector<RGB> values;
+  std::vector<Vec3> normals;
+  const double scale = PictureSize / 2.2; // pixels a unit, at the distance of the sphere's centre
+  for (int i = 0; i < count; ++i)
+  {
+    const double radius = std::sqrt((i + 0.5) / count) * 0.95;
+    const double angle = reference::Pi * (3 - std::sqrt(5.0)) * i;
+    const int column = int(std::floor(PictureSize / 2 + scale * radius * std::cos(angle)));
+    const int row = int(std::floor(PictureSize / 2 + scale * radius * std::sin(angle)));
+    const double x = (column + 0.5 - PictureSize / 2) / scale;
+    const double y = (row + 0.5 - PictureSize / 2) / scale;
+    normals.push_back({ x, y, std::sqrt(1 - x * x - y * y) });
+    const auto* rgba = static_cast<const float*>(picture->GetScalarPointer(column, row, 0));
+    values.push_back({ rgba[0], rgba[1], rgba[2] });
+  }
+  const auto truth = reference::Cached<RGB>(
+    "benchmark picture " + std::to_string(Roughness) + reference::KeyOf(map.Reference) + reference::KeyOf(normals),
+    [&]
+    {
+      std::vector<RGB> rgb(normals.size());
+      reference::ParallelFor(int(normals.size()),
+        [&](int i) {
+          rgb[i] =
+            reference::FullBRDFRadiance(map.Reference, normals[i], { 0, 0, 1 }, Roughness, { 1, 1, 1 }, { 0, 0, 0 });
+        });
+      return rgb;
+    });
+  return Judge(values, truth);
+}
+
+bool IsLit(const FrameEngine& engine)
+{
+  return engine.VTKLight || engine.SamplesPerPixel >= 0;
+}
+
+/// The steady frame's, if that is known, or a new one's: the picture is the same.
+Error FindPictureError(const Session& session, const FrameEngine& engine, const Map& map)
+{
+  for (const Row& row : session.Rows)
+  {
+    if (row.Panel == "steady frame" && row.Setting == engine.Setting && row.Map == map.Name && row.Error)
+    {
+      return *row.Error;
+    }
+  }
+  Scene scene(engine, map.Image);
+  scene.Render();
+  return JudgePicture(session, scene, engine, map);
+}
+
+void RunSteadyFrame(Session& session, const FrameEngine& engine, const Map& map)
+{
+  Scene scene(engine, map.Image);
+  scene.Render();
+  Row row("steady frame", engine.Name, engine.Setting, map.Name);
+  if (IsLit(engine))
+  {
+    row.Error = JudgePicture(session, scene, engine, map);
+    scene.Render();
+  }
+  row.Samples = Repeat([&] { return scene.Render(); }, session.Options.Repeat, 1.5, 2);
+  row.Default = true;
+  row.Note =
+    engine.SamplesPerPixel > 0 ? "the reflection integral itself, estimated in every pixel: slow, and converges" : "";
+  session.Add(row);
+}
+
+const FrameEngine& FindEngine(const std::string& setting)
+{
+  for (const FrameEngine& engine : FrameEngines)
+  {
+    if (setting == engine.Setting)
+    {
+      return engine;
+    }
+  }
+  throw std::runtime_error("there is no engine " + setting);
+}
+
+void RunFirstFrames(Session& session, const FrameEngine& engine, bool coldCache)
+{
+  const Map& map = session.Maps.front();
+  const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
+  const std::string command = std::string(coldCache ? "MESA_SHADER_CACHE_DISABLE=true " : "") + "'" + self +
+    "' --first-frame '" + engine.Setting + "' --maps " + map.Name;
+  auto run = [&]
+  {
+    std::string output;
+    RunProcess(command, &output);
+    Sample sample;
+    if (std::sscanf(output.c_str(), "%lf %lf", &sample.Wall, &sample.CPU) != 2)
+    {
+      throw std::runtime_error("\"" + command + "\" printed: " + output);
+    }
+    return sample;
+  };
+  Row row("first frame", engine.Name, std::string(engine.Setting) + (coldCache ? ", cold" : ""), map.Name);
+  if (IsLit(engine))
+  {
+    row.Error = FindPictureError(session, engine, map);
+  }
+  const double budget = coldCache ? 25 : 60;
+  row.Samples = session.Options.Quick ? Repeat(run, 1, 0, 1) : Repeat(run, session.Options.Repeat, budget);
+  row.Default = true;
+  session.Add(row);
+}
+}
+
+int RunFirstFrame(const std::string& setting, const std::string& map)
+{
+  const Map loaded = LoadMap(map);
+  Scene scene(FindEngine(setting), loaded.Image);
+  const Sample sample = scene.Render();
+  std::printf("%.6f %.6f\n", sample.Wall, sample.CPU);
+  return 0;
+}
+
+void RunFrames(Session& session)
+{
+  if (session.Wants("steady frame"))
+  {
+    for (const Map& map : session.Maps)
+    {
+      for (const FrameEngine& engine : FrameEngines)
+      {
+        if (!session.Options.Quick || engine.SamplesPerPixel <= 16)
+        {
+          RunSteadyFrame(session, engine, map);
+        }
+      }
+    }
+  }
+  if (session.Wants("first frame"))
+  {
+    for (const FrameEngine& engine : FrameEngines)
+    {
+      if (engine.SamplesPerPixel <= 0)
+      {
+        RunFirstFrames(session, engine, false);
+        if (IsLit(engine) && !session.Options.Quick)
+        {
+          RunFirstFrames(session, engine, true);
+        }
+      }
+    }
+  }
+}
+}
