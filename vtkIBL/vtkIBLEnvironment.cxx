@@ -47,6 +47,13 @@ vtkSmartPointer<vtkImageData> MakeImage(int width, int height, int faces)
   return image;
 }
 
+vtkSmartPointer<vtkImageData> MakeStudio()
+{
+  auto studio = MakeImage(StudioWidth, StudioWidth / 2, 1);
+  vtkIBLMakeStudio(View(studio));
+  return studio;
+}
+
 // IEC 61966-2-1.
 double LinearFromSRGB(double x)
 {
@@ -252,8 +259,7 @@ bool vtkIBLEnvironment::Update()
     vtkSmartPointer<vtkImageData> radiance = this->Load();
     if (!radiance && !this->Radiance)
     {
-      radiance = MakeImage(StudioWidth, StudioWidth / 2, 1);
-      vtkIBLMakeStudio(View(radiance));
+      radiance = MakeStudio();
     }
     if (radiance)
     {
@@ -273,9 +279,7 @@ vtkSmartPointer<vtkImageData> vtkIBLEnvironment::Load()
   {
     return this->LoadFile();
   }
-  auto studio = MakeImage(StudioWidth, StudioWidth / 2, 1);
-  vtkIBLMakeStudio(View(studio));
-  return studio;
+  return MakeStudio();
 }
 
 vtkSmartPointer<vtkImageData> vtkIBLEnvironment::LoadFile()

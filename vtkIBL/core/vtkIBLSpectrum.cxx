@@ -72,6 +72,21 @@ struct Sectoral
   int M = 0;
 };
 
+// From P_{l-1,m} and P_{l-2,m} to P_lm and P_{l-1,m}. Inlined, so that it is compiled for the caller's vectors.
+#if defined(__GNUC__)
+__attribute__((always_inline))
+#endif
+inline void
+NextBand(const Recurrence& next, const Lane& cosine, Lane& p1, Lane& p2)
+{
+  for (int i = 0; i < Lanes; ++i)
+  {
+    const float p = next.A * (cosine[i] * p1[i] - next.B * p2[i]);
+    p2[i] = p1[i];
+    p1[i] = p;
+  }
+}
+
 // sums[l - m][c] += P_lm * value, c = 0..5 for l - m even, out of the pair's sum, and odd, out of its difference.
 VTKIBL_WIDE void AddToBands(int bands, const Recurrence* recurrence, const Lane& cosine, const Lane& sectoral,
   const Lane (&sum)[6], const Lane (&difference)[6], Lane* sums)
@@ -90,13 +105,7 @@ VTKIBL_WIDE void AddToBands(int bands, const Recurrence* recurrence, const Lane&
     }
     if (k + 1 < bands)
     {
-      const Recurrence next = recurrence[k + 1];
-      for (int i = 0; i < Lanes; ++i)
-      {
-        const float p = next.A * (cosine[i] * p1[i] - next.B * p2[i]);
-        p2[i] = p1[i];
-        p1[i] = p;
-      }
+      NextBand(recurrence[k + 1], cosine, p1, p2);
     }
   }
 }
@@ -120,13 +129,7 @@ VTKIBL_WIDE void SumBands(int bands, const Recurrence* recurrence, const Lane& c
     }
     if (k + 1 < bands)
     {
-      const Recurrence next = recurrence[k + 1];
-      for (int i = 0; i < Lanes; ++i)
-      {
-        const float p = next.A * (cosine[i] * p1[i] - next.B * p2[i]);
-        p2[i] = p1[i];
-        p1[i] = p;
-      }
+      NextBand(recurrence[k + 1], cosine, p1, p2);
     }
   }
 }
