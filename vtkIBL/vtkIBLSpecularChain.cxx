@@ -9,10 +9,10 @@
 #include "vtkIBLSampleTable.h"
 #include "vtkIBLShaderFunctions.h"
 #include "vtkIBLSpectrum.h"
+#include "vtkIBLThreads.h"
 
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
-#include "vtkSMPTools.h"
 
 #include <algorithm>
 #include <vector>
@@ -178,31 +178,20 @@ vtkTypeInt64 vtkIBLSpecularChain::BuildSpectralLayers(
   {
     return 0;
   }
-  const vtkIBLParallelFor parallelFor = [](int count, const std::function<void(int)>& body)
-  {
-    vtkSMPTools::For(0, count, 1,
-      [&](vtkIdType begin, vtkIdType end)
-      {
-        for (vtkIdType i = begin; i < end; ++i)
-        {
-          body(static_cast<int>(i));
-        }
-      });
-  };
   firstLayer = 1;
   while (vtkIBLSpectrum::RequiredOrder(GetPerceptualRoughness(firstLayer)) > 128)
   {
     ++firstLayer;
   }
   const int order = vtkIBLSpectrum::RequiredOrder(GetPerceptualRoughness(firstLayer));
-  const vtkIBLSpectrum spectrum(radiance, order, parallelFor);
+  const vtkIBLSpectrum spectrum(radiance, order, vtkIBLRunOnThreads);
   this->Internal->BrightTexels = spectrum.GetBrightTexels();
   vtkTypeInt64 texels = 0;
   for (int layer = firstLayer; layer < IBL_LAYER_COUNT; ++layer)
   {
     const int size = faceSize >> (layer / 2);
     std::vector<float> rgb(std::size_t(18) * size * size);
-    spectrum.Filter(GetPerceptualRoughness(layer), size, rgb.data(), parallelFor);
+    spectrum.Filter(GetPerceptualRoughness(layer), size, rgb.data(), vtkIBLRunOnThreads);
     std::transform(rgb.begin(), rgb.end(), rgb.begin(),
       [storedScale](float x) { return std::min(static_cast<float>(x / storedScale), 65504.0f); });
     glTextureSubImage3D(chains[layer % 2].Id(), layer / 2, 0, 0, 0, size, size, 6, GL_RGB, GL_FLOAT, rgb.data());

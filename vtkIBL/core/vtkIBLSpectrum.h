@@ -8,15 +8,12 @@
 // first and come back as lobes of that very kernel, so that they do not ring.
 #pragma once
 
+#include "vtkIBLParallelFor.h"
 #include "vtkIBLRadianceImage.h"
 
 #include <glm/glm.hpp>
 
-#include <functional>
 #include <vector>
-
-/// Runs body(i) for i in [0, count), in any order and on any thread.
-using vtkIBLParallelFor = std::function<void(int count, const std::function<void(int)>& body)>;
 
 /// A texel that stands for more light than its share: unit direction, solid angle [sr], and the radiance that was taken
 /// out.
