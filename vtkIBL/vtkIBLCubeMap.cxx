@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIBLCubeMap.h"
 
+#include "vtkIBLCubeConversion.h"
 #include "vtkIBLEnvironment.h"
 #include "vtkIBLGL.h"
 #include "vtkIBLRadianceImage.h"
+#include "vtkIBLThreads.h"
 
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
@@ -12,13 +14,13 @@
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 vtkStandardNewMacro(vtkIBLCubeMap);
 
 struct vtkIBLCubeMap::Internals
 {
   vtkIBLGL::Texture Cube;
-  vtkIBLGL::Program EquirectToCube;
   vtkIBLGL::Program Resample;
 };
 
@@ -54,29 +56,23 @@ int ChooseFaceSize(int wanted, const vtkIBLRadianceImage& radiance)
   return std::max(FloorPowerOfTwo(wanted > 0 ? wanted : std::min(own, largestByDefault)), least);
 }
 
-void Upload(const vtkIBLGL::Texture& texture, const vtkIBLRadianceImage& radiance)
+// Six faces to the finest level.
+void Upload(const vtkIBLGL::Texture& cube, int faceSize, const float* rgb)
 {
   glPixelStorei(
     GL_UNPACK_ALIGNMENT, 4); // rows of three floats are always so aligned; VTK's cache has 1 or 4 here, either will do
-  if (radiance.Faces == 6)
-  {
-    glTextureSubImage3D(texture.Id(), 0, 0, 0, 0, radiance.Width, radiance.Height, 6, GL_RGB, GL_FLOAT, radiance.RGB);
-  }
-  else
-  {
-    glTextureSubImage2D(texture.Id(), 0, 0, 0, radiance.Width, radiance.Height, GL_RGB, GL_FLOAT, radiance.RGB);
-  }
+  glTextureSubImage3D(cube.Id(), 0, 0, 0, 0, faceSize, faceSize, 6, GL_RGB, GL_FLOAT, rgb);
   vtkIBLGL::CheckErrors("uploading the environment");
 }
 
-void RequireTextureSize(const vtkIBLRadianceImage& radiance)
+void RequireTextureSize(int faceSize)
 {
   GLint largest = 0;
-  glGetIntegerv(radiance.Faces == 6 ? GL_MAX_CUBE_MAP_TEXTURE_SIZE : GL_MAX_TEXTURE_SIZE, &largest);
-  if (radiance.Width > largest || radiance.Height > largest)
+  glGetIntegerv(GL_MAX_CUBE_MAP_TEXTURE_SIZE, &largest);
+  if (faceSize > largest)
   {
     std::ostringstream words;
-    words << "the environment is " << radiance.Width << "x" << radiance.Height << ", and this GPU takes textures up to "
+    words << "the environment's faces are " << faceSize << "x" << faceSize << ", and this GPU takes cube maps up to "
           << largest << "; lower vtkIBLEnvironment's MaximumWidth";
     throw std::runtime_error(words.str());
   }
@@ -139,12 +135,10 @@ vtkTypeInt64 vtkIBLCubeMap::Build(vtkOpenGLRenderWindow* window)
   const vtkIBLRadianceImage radiance = this->Environment->GetRadiance();
   const int faceSize = ChooseFaceSize(this->FaceSize, radiance);
   const int levels = CountLevels(faceSize);
-  RequireTextureSize(radiance);
 
   Internals& gl = *this->Internal;
   if (!gl.Resample)
   {
-    gl.EquirectToCube = Program::Compute(window, "vtkIBLEquirectToCubeCS.glsl");
     gl.Resample = Program::Compute(window, "vtkIBLCubeResampleCS.glsl");
   }
   Texture cube = Texture::Cube(window, faceSize, levels, GL_RGBA32F);
@@ -158,19 +152,16 @@ vtkTypeInt64 vtkIBLCubeMap::Build(vtkOpenGLRenderWindow* window)
 
   if (radiance.Faces == 6)
   {
+    RequireTextureSize(radiance.Width);
     const Texture faces = Texture::Cube(window, radiance.Width, 1, GL_RGBA32F);
-    Upload(faces, radiance);
+    Upload(faces, radiance.Width, radiance.RGB);
     resample(faces, 0, 0);
   }
   else
   {
-    const Texture image = Texture::Image2D(window, radiance.Width, radiance.Height, GL_RGB32F);
-    Upload(image, radiance);
-    BoundTexture bound(window, image);
-    gl.EquirectToCube.Set("image", bound.GetUnit());
-    ActiveProgram active(window, gl.EquirectToCube);
-    BoundImage target(0, cube, 0, GL_WRITE_ONLY, GL_RGBA32F);
-    DispatchTiles(faceSize, 6);
+    std::vector<float> rgb(std::size_t(18) * faceSize * faceSize);
+    vtkIBLConvertToCube(radiance, faceSize, rgb.data(), vtkIBLRunOnThreads);
+    Upload(cube, faceSize, rgb.data());
   }
   for (int level = 1; level < levels; ++level)
   {

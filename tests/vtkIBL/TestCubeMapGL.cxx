@@ -141,25 +141,6 @@ TEST_F(TestCubeMapGL, AveragesRealPanoramasByArea)
   }
 }
 
-// One bright texel anywhere, the poles and the seam among the places, keeps its energy: mean radiance x 4 pi = L x
-// Omega. 1e-3 promised. Mutants: a branch cut of atan inside a texel, the pole's row left out.
-TEST_F(TestCubeMapGL, KeepsTheEnergyOfOneTexel)
-{
-  const int height = 32;
-  for (const auto& [row, column] :
-    { std::pair{ 0, 5 }, { height - 1, 40 }, { 16, 0 }, { 16, 2 * height - 1 }, { 7, 16 }, { 20, 33 } })
-  {
-    const reference::Environment sun = reference::OneTexelSun({ 1e6, 1e6, 1e6 }, row, column, 2 * height, height);
-    vtkSmartPointer<vtkImageData> image = MakePanorama(height, [&](Vec3 d) { return reference::Radiance(sun, d); });
-    for (int n : { 16, 64 })
-    {
-      const double energy = GetEnergy(this->Bake(image, n), 0);
-      EXPECT_NEAR(energy / (1e6 * reference::TexelSolidAngle(sun, row)), 1.0, 1e-3)
-        << row << " " << column << " at " << n;
-    }
-  }
-}
-
 // Each level is the solid-angle-weighted mean of the one before. Weights are exact, sums in float: 1e-5. Mutant: plain
 // 2 x 2 means (corners off by percents at coarse levels).
 TEST_F(TestCubeMapGL, FiltersLevelsBySolidAngle)
