@@ -199,7 +199,7 @@ TableWork MakeTable(vtkOpenGLRenderWindow* window, int samples)
   vtkSmartPointer<vtkImageData> image = table->Read();
   TableWork work;
   work.Read = [image](double NoV, double roughness) { return ReadTable(image, NoV, roughness); };
-  work.Bytes = 8LL * vtkIBLBRDFTable::Size * vtkIBLBRDFTable::Size; // RG32F
+  work.Bytes = 4LL * vtkIBLBRDFTable::Size * vtkIBLBRDFTable::Size; // RG16
   work.Run = [=] { return Rebuild(table, window); };
   return work;
 }
@@ -214,7 +214,7 @@ Work MakeBake(vtkOpenGLRenderWindow* window, int engine, const Map& map, int sam
   work.Fetches = CountFetches(lighting);
   const int size = lighting->GetCubeMap()->GetOutputFaceSize();
   work.Bytes = 128LL * size * size + CountBytes(lighting->GetSpecularChain()) +
-    8LL * vtkIBLBRDFTable::Size * vtkIBLBRDFTable::Size;
+    4LL * vtkIBLBRDFTable::Size * vtkIBLBRDFTable::Size;
   work.Run = [=] { return RebuildAll(lighting, window); };
   return work;
 }
@@ -249,7 +249,7 @@ Engine MakeSpectral(Session& session)
   engine.Name = "vtkIBL";
   engine.Samples = session.Options.Quick ? std::vector<int>{ 512 } : std::vector<int>{ 512, 64, 2048 };
   engine.TableSamples =
-    session.Options.Quick ? std::vector<int>{ 1024, 64 } : std::vector<int>{ 1024, 16, 64, 256, 4096 };
+    session.Options.Quick ? std::vector<int>{ 0, 64 } : std::vector<int>{ 0, 16, 64, 256, 1024, 4096 };
   engine.LayerBound = 0.03;
   engine.TableBound = 0.005;
   engine.MakeCube = [=](const Map& map, int faceSize) { return MakeCube(window, map, faceSize); };

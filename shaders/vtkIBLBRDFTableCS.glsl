@@ -1,9 +1,9 @@
 // The split sum's A and B over (sqrt(NoV), perceptualRoughness), edge-aligned.
-// Writes: table (image2D, rg32f).  Dispatch: (n / IBL_TILE, n / IBL_TILE, 1).
+// Writes: table (image2D, rg16).  Dispatch: (n / IBL_TILE, n / IBL_TILE, 1).
 layout(local_size_x = IBL_TILE, local_size_y = IBL_TILE) in;
 uniform int geometry;
 uniform int sampleCount;
-layout(binding = 0, rg32f) writeonly uniform image2D table;
+layout(binding = 0, rg16) writeonly uniform image2D table;
 
 #include "vtkIBLDirectionFunctions.glsl"
 #include "vtkIBLSamplingFunctions.glsl"

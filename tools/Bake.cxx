@@ -166,7 +166,7 @@ JSON DescribeStages(vtkIBLLighting* lighting, double readSeconds)
     { { "name", "irradiance" }, { "milliseconds", 1000.0 * lighting->GetIrradiance()->GetLastBuildSeconds() },
       { "bytes", 9 * 3 * sizeof(double) } },
     stage("specularChain", lighting->GetSpecularChain(), 8), // RGBA16F
-    stage("brdfTable", lighting->GetBRDFTable(), 8) };       // RG32F
+    stage("brdfTable", lighting->GetBRDFTable(), 4) };       // RG16
 }
 
 JSON DescribeBrightTexels(const vtkIBLSpecularChain* chain)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIBLBRDFTable.h"
 
+#include "vtkIBLBRDFTableTexels.h"
 #include "vtkIBLGL.h"
 #include "vtkIBLShared.glsl"
 
@@ -13,6 +14,7 @@ vtkStandardNewMacro(vtkIBLBRDFTable);
 static_assert(
   vtkIBLBRDFTable::SmithCorrelated == IBL_SMITH_CORRELATED && vtkIBLBRDFTable::SchlickSmith == IBL_SCHLICK_SMITH,
   "the shader takes the enumeration's values");
+static_assert(vtkIBLBRDFTable::Size == vtkIBLBRDFTableSize, "the header says how large the constant is");
 
 struct vtkIBLBRDFTable::Internals
 {
@@ -48,21 +50,33 @@ bool vtkIBLBRDFTable::UpdateInput(vtkOpenGLRenderWindow*, vtkMTimeType&)
 vtkTypeInt64 vtkIBLBRDFTable::Build(vtkOpenGLRenderWindow* window)
 {
   using namespace vtkIBLGL;
-  Internals& gl = *this->Internal;
-  if (!gl.Program)
+  Texture table = Texture::Image2D(window, Size, Size, GL_RG16);
+  if (this->GeometryTerm == SmithCorrelated && this->NumberOfSamples == 0)
   {
-    gl.Program = Program::Compute(window, "vtkIBLBRDFTableCS.glsl");
+    glTextureSubImage2D(table.Id(), 0, 0, 0, Size, Size, GL_RG, GL_UNSIGNED_SHORT, vtkIBLBRDFTableTexels);
+    CheckErrors("uploading the BRDF table");
   }
-  Texture table = Texture::Image2D(window, Size, Size, GL_RG32F);
-  gl.Program.Set("geometry", this->GeometryTerm);
-  gl.Program.Set("sampleCount", this->NumberOfSamples);
+  else
   {
-    ActiveProgram active(window, gl.Program);
-    BoundImage target(0, table, 0, GL_WRITE_ONLY, GL_RG32F);
-    DispatchTiles(Size, 1);
+    this->Sample(window, table);
   }
-  gl.Table = std::move(table);
+  this->Internal->Table = std::move(table);
   return vtkTypeInt64(Size) * Size;
+}
+
+void vtkIBLBRDFTable::Sample(vtkOpenGLRenderWindow* window, const vtkIBLGL::Texture& table)
+{
+  using namespace vtkIBLGL;
+  Program& program = this->Internal->Program;
+  if (!program)
+  {
+    program = Program::Compute(window, "vtkIBLBRDFTableCS.glsl");
+  }
+  program.Set("geometry", this->GeometryTerm);
+  program.Set("sampleCount", this->NumberOfSamples > 0 ? this->NumberOfSamples : 1024);
+  ActiveProgram active(window, program);
+  BoundImage target(0, table, 0, GL_WRITE_ONLY, GL_RG16);
+  DispatchTiles(Size, 1);
 }
 
 void vtkIBLBRDFTable::Release()

@@ -3,7 +3,6 @@
 // The pass among VTK's features: what it adds, and what it leaves alone.
 #include "TestScene.h"
 
-#include "vtkIBLBRDFTable.h"
 #include "vtkIBLCubeMap.h"
 #include "vtkIBLSpecularChain.h"
 
@@ -450,7 +449,6 @@ TEST_F(TestRenderPassGL, LeavesNoGLObjects)
     pass->GetLighting()->GetSpecularChain()->SetEngine(vtkIBLSpecularChain::Sampled);
     pass->GetLighting()->GetSpecularChain()->SetNumberOfSamples(16);
     pass->GetLighting()->GetCubeMap()->SetFaceSize(16);
-    pass->GetLighting()->GetBRDFTable()->SetNumberOfSamples(16);
   };
   auto renderWithout = [this]
   {
