@@ -220,6 +220,12 @@ void TransformRow(const float* row, int width, int order, const kissfft<float>& 
 }
 }
 
+std::pair<glm::dvec3, glm::dvec3> vtkIBLSpectrum::GetCoefficient(int l, int m) const
+{
+  const float* c = &this->Coefficients[Offset(this->Order, m, l)];
+  return { glm::dvec3(c[0], c[1], c[2]), glm::dvec3(c[3], c[4], c[5]) };
+}
+
 int vtkIBLSpectrum::RequiredOrder(double perceptualRoughness)
 {
   const double alpha = perceptualRoughness * perceptualRoughness;

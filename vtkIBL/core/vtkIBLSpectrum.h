@@ -13,6 +13,7 @@
 
 #include <glm/glm.hpp>
 
+#include <utility>
 #include <vector>
 
 /// A texel that stands for more light than its share: unit direction, solid angle [sr], and the radiance that was taken
@@ -37,6 +38,11 @@ public:
 
   const std::vector<vtkIBLBrightTexel>& GetBrightTexels() const { return this->BrightTexels; }
   int GetOrder() const { return this->Order; }
+
+  /// Real and imaginary part of band l, 0 <= m <= l: integral of radiance times P_lm(y) exp(-i m phi) over the sphere,
+  /// phi = atan2(z, x), P orthonormal, with sqrt 2 for m > 0, and without the Condon-Shortley sign. Bright texels are
+  /// not in it.
+  std::pair<glm::dvec3, glm::dvec3> GetCoefficient(int l, int m) const;
 
   /// Bands that a roughness needs: 4/alpha, and never less than 48, for the kernel's edge at the horizon when it is
   /// broad.
