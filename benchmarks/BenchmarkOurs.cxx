@@ -157,7 +157,6 @@ HarmonicsWork MakeHarmonics(vtkOpenGLRenderWindow* window, const Map& map)
 {
   auto lighting = MakeLighting(map.Image);
   lighting->GetIrradiance()->Update(window);
-  const int size = lighting->GetCubeMap()->GetOutputFaceSize();
   HarmonicsWork work;
   work.Irradiance = [=](Vec3 normal)
   {
@@ -165,7 +164,7 @@ HarmonicsWork MakeHarmonics(vtkOpenGLRenderWindow* window, const Map& map)
     lighting->GetIrradiance()->GetIrradiance(&normal.x, rgb.data());
     return rgb;
   };
-  work.Fetches = 6LL * size * size;
+  work.Fetches = map.Image->GetNumberOfPoints();
   work.Bytes = 9 * 3 * sizeof(float);
   work.Run = [=] { return Rebuild(lighting->GetIrradiance(), window); };
   return work;

@@ -1,26 +1,4 @@
-// Real spherical harmonics to band 2, orthonormal on the sphere, without the Condon-Shortley sign: index l (l + 1) + m, so
-// that Y1 = sqrt(3 / 4 pi) (y, z, x). Ramamoorthi & Hanrahan 2001, eq. 3.
-
-float iblHarmonic(int index, vec3 n)
-{
-  if (index == 0) { return 0.28209479177387814; }
-  if (index == 1) { return 0.48860251190291992 * n.y; }
-  if (index == 2) { return 0.48860251190291992 * n.z; }
-  if (index == 3) { return 0.48860251190291992 * n.x; }
-  if (index == 4) { return 1.09254843059207907 * n.x * n.y; }
-  if (index == 5) { return 1.09254843059207907 * n.y * n.z; }
-  if (index == 6) { return 0.31539156525252005 * (3.0 * n.z * n.z - 1.0); }
-  if (index == 7) { return 1.09254843059207907 * n.x * n.z; }
-  return 0.54627421529603953 * (n.x * n.x - n.y * n.y);
-}
-
-// The clamped cosine's zonal coefficients pi, 2 pi/3, pi/4: radiance coefficient times this is an irradiance coefficient.
-float iblCosineLobe(int band)
-{
-  if (band == 0) { return iblPi; }
-  if (band == 1) { return 2.0 * iblPi / 3.0; }
-  return iblPi / 4.0;
-}
+// Irradiance out of harmonics.
 
 // Irradiance over pi at unit normal n from bands 0 to 2 of radiance, packed by vtkIBLPackIrradiance: red, green and blue factors of
 // x, y, z and 1, the same of xy, yz, z^2 and zx, and RGB of x^2 - y^2 (Sloan 2008, Stupid Spherical Harmonics Tricks, appendix A10).

@@ -4,9 +4,8 @@
 #define IBL_LAYER_COUNT 10
 #define IBL_CHAIN_LEVELS 5
 
-// Compute shaders work on square tiles; harmonics on one row of one face with IBL_ROW_THREADS threads.
+// Compute shaders work on square tiles.
 #define IBL_TILE 8
-#define IBL_ROW_THREADS 64
 
 // iblSplitSum: the geometry term.
 #define IBL_SMITH_CORRELATED 0

@@ -2,31 +2,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIBLIrradiance.h"
 
-#include "vtkIBLCubeMap.h"
-#include "vtkIBLGL.h"
-#include "vtkIBLShaderFunctions.h"
+#include "vtkIBLEnvironment.h"
+#include "vtkIBLHarmonics.h"
+#include "vtkIBLThreads.h"
 
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 vtkStandardNewMacro(vtkIBLIrradiance);
 
-namespace
-{
-using Functions = vtkIBLCore::ShaderFunctions<double>;
-
-int GetBand(int index)
-{
-  return index == 0 ? 0 : index < 4 ? 1 : 2;
-}
-}
-
 struct vtkIBLIrradiance::Internals
 {
-  vtkIBLGL::Program Harmonics;
+  vtkIBLHarmonics Harmonics{ 2 };
+  std::vector<vtkIBLBrightTexel> BrightTexels; // what is not in them
 };
 
 vtkIBLIrradiance::vtkIBLIrradiance()
@@ -39,113 +29,140 @@ vtkIBLIrradiance::~vtkIBLIrradiance() = default;
 void vtkIBLIrradiance::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "CubeMap: " << this->CubeMap.Get() << "\n" << indent << "RadianceCoefficients:\n";
-  for (const auto& c : this->Coefficients)
+  os << indent << "Environment: " << this->Environment.Get() << "\n"
+     << indent << "Order: " << this->Order << "\n"
+     << indent << "KeepBrightTexels: " << this->KeepBrightTexels << "\n"
+     << indent << "NumberOfBrightTexels: " << this->GetNumberOfBrightTexels() << "\n"
+     << indent << "RadianceCoefficients:\n";
+  for (const glm::dvec3& c : this->Internal->Harmonics.RGB)
   {
-    os << indent << "  " << c[0] << " " << c[1] << " " << c[2] << "\n";
+    os << indent << "  " << c.r << " " << c.g << " " << c.b << "\n";
   }
 }
 
-void vtkIBLIrradiance::SetCubeMap(vtkIBLCubeMap* cubeMap)
+void vtkIBLIrradiance::SetEnvironment(vtkIBLEnvironment* environment)
 {
-  if (this->CubeMap != cubeMap)
+  if (this->Environment != environment)
   {
-    this->CubeMap = cubeMap;
+    this->Environment = environment;
     this->Modified();
   }
 }
 
-vtkIBLCubeMap* vtkIBLIrradiance::GetCubeMap() const
+vtkIBLEnvironment* vtkIBLIrradiance::GetEnvironment() const
 {
-  return this->CubeMap;
+  return this->Environment;
+}
+
+void vtkIBLIrradiance::SetOrder(int order)
+{
+  if (order != 2 && order != 4 && order != 8)
+  {
+    vtkErrorMacro("Order is " << order << "; it must be 2, 4 or 8. The old one, " << this->Order << ", stays.");
+  }
+  else if (order != this->Order)
+  {
+    this->Order = order;
+    this->Modified();
+  }
+}
+
+void vtkIBLIrradiance::SetKeepBrightTexels(bool keep)
+{
+  if (keep != this->KeepBrightTexels)
+  {
+    this->KeepBrightTexels = keep;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkIBLIrradiance::GetNumberOfCoefficients() const
+{
+  return static_cast<int>(this->Internal->Harmonics.RGB.size());
 }
 
 void vtkIBLIrradiance::GetRadianceCoefficient(int index, double rgb[3]) const
 {
-  std::copy_n(this->Coefficients[std::clamp(index, 0, 8)], 3, rgb);
+  const glm::dvec3& c = this->Internal->Harmonics.RGB[std::clamp(index, 0, this->GetNumberOfCoefficients() - 1)];
+  std::copy_n(&c.x, 3, rgb);
+}
+
+void vtkIBLIrradiance::GetWorldCoefficients(double* rgb) const
+{
+  glm::dmat3 worldFromEnvironment(1.0); // GLM has columns where VTK has rows
+  if (this->Environment)
+  {
+    this->Environment->GetEnvironmentFromWorld(&worldFromEnvironment[0].x);
+  }
+  for (const glm::dvec3& c : vtkIBLTurnHarmonics(this->Internal->Harmonics, glm::transpose(worldFromEnvironment)).RGB)
+  {
+    rgb = std::copy_n(&c.x, 3, rgb);
+  }
+}
+
+int vtkIBLIrradiance::GetNumberOfBrightTexels() const
+{
+  return static_cast<int>(this->Internal->BrightTexels.size());
+}
+
+double vtkIBLIrradiance::GetBrightTexel(int index, double direction[3], double radiance[3]) const
+{
+  const vtkIBLBrightTexel& texel = this->Internal->BrightTexels.at(index);
+  std::copy_n(&texel.Direction.x, 3, direction);
+  std::copy_n(&texel.Radiance.x, 3, radiance);
+  return texel.SolidAngle;
 }
 
 void vtkIBLIrradiance::GetIrradiance(const double normal[3], double rgb[3]) const
 {
-  Functions shader;
-  std::fill_n(rgb, 3, 0.0);
-  for (int index = 0; index < 9; ++index)
-  {
-    const double basis = shader.iblHarmonic(index, Functions::vec3(normal[0], normal[1], normal[2])) *
-      shader.iblCosineLobe(GetBand(index));
-    for (int k = 0; k < 3; ++k)
-    {
-      rgb[k] += this->Coefficients[index][k] * basis;
-    }
-  }
-  std::transform(rgb, rgb + 3, rgb, [](double x) { return std::max(x, 0.0); });
+  const glm::dvec3 irradiance = vtkIBLEvaluateIrradiance(
+    this->Internal->Harmonics, this->Internal->BrightTexels, { normal[0], normal[1], normal[2] });
+  std::copy_n(&irradiance.x, 3, rgb);
 }
 
-void vtkIBLIrradiance::GetPolynomial(float factors[9][3]) const
+void vtkIBLIrradiance::GetPacked(float vectors[7][4]) const
 {
-  // A direction for each basis function at which its polynomial is known: the constant in front is harmonic /
-  // polynomial there.
-  const double half = std::sqrt(0.5);
-  const Functions::vec3 probes[9] = { { 0, 0, 1 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { half, half, 0 },
-    { 0, half, half }, { 0, 0, 1 }, { half, 0, half }, { 1, 0, 0 } };
-  const double polynomials[9] = { 1, 1, 1, 1, 0.5, 0.5, 2, 0.5, 1 };
-  Functions shader;
-  for (int index = 0; index < 9; ++index)
+  vtkIBLHarmonics all = this->Internal->Harmonics;
+  vtkIBLAddBrightTexels(this->Internal->BrightTexels, all);
+  for (const glm::dvec4& packed : vtkIBLPackIrradiance(all))
   {
-    const double factor = shader.iblHarmonic(index, probes[index]) / polynomials[index] *
-      shader.iblCosineLobe(GetBand(index)) / shader.iblPi;
-    for (int k = 0; k < 3; ++k)
-    {
-      factors[index][k] = static_cast<float>(this->Coefficients[index][k] * factor);
-    }
+    std::copy_n(&packed.x, 4, *vectors++);
   }
 }
 
-bool vtkIBLIrradiance::UpdateInput(vtkOpenGLRenderWindow* window, vtkMTimeType& inputTime)
+//------------------------------------------------------------------------------
+bool vtkIBLIrradiance::UpdateInput(vtkOpenGLRenderWindow*, vtkMTimeType& inputTime)
 {
-  if (!this->CubeMap || !this->CubeMap->Update(window))
+  if (!this->Environment || !this->Environment->Update())
   {
     return false;
   }
-  inputTime = this->CubeMap->GetBuildTime();
+  inputTime = this->Environment->GetRadianceTime();
   return true;
 }
 
-vtkTypeInt64 vtkIBLIrradiance::Build(vtkOpenGLRenderWindow* window)
+vtkTypeInt64 vtkIBLIrradiance::Build(vtkOpenGLRenderWindow*)
 {
-  using namespace vtkIBLGL;
-  if (!this->Internal->Harmonics)
+  const vtkIBLRadianceImage radiance = this->Environment->GetRadiance();
+  Internals made;
+  if (radiance.Faces == 6)
   {
-    this->Internal->Harmonics = Program::Compute(window, "vtkIBLHarmonicsCS.glsl");
+    made.Harmonics = vtkIBLMakeHarmonics(radiance, this->Order, vtkIBLRunOnThreads);
   }
-  const int size = this->CubeMap->GetOutputFaceSize();
-  std::vector<glm::vec4> rows(std::size_t(size) * 6 * 9);
-  const auto bytes = GLsizeiptr(rows.size() * sizeof(glm::vec4));
-  const Buffer buffer = Buffer::Make(window, bytes, nullptr);
+  else
   {
-    ActiveProgram active(window, this->Internal->Harmonics);
-    BoundImage source(1, this->CubeMap->GetTexture(), 0, GL_READ_ONLY, GL_RGBA32F);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer.Id());
-    glDispatchCompute(GLuint(size), 6, 1);
-    FinishDispatch();
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, 0);
-  }
-  glGetNamedBufferSubData(buffer.Id(), 0, bytes, rows.data());
-  CheckErrors("reading harmonics back");
-
-  double sums[9][3] = {};
-  for (std::size_t i = 0; i < rows.size(); ++i)
-  {
-    for (int k = 0; k < 3; ++k)
+    const vtkIBLSpectrum spectrum(radiance, this->Order, vtkIBLRunOnThreads);
+    made.Harmonics = vtkIBLMakeHarmonics(spectrum, this->Order);
+    made.BrightTexels = spectrum.GetBrightTexels();
+    if (!this->KeepBrightTexels)
     {
-      sums[i % 9][k] += rows[i][k];
+      vtkIBLAddBrightTexels(made.BrightTexels, made.Harmonics);
+      made.BrightTexels.clear();
     }
   }
-  std::copy_n(&sums[0][0], 27, &this->Coefficients[0][0]);
-  return vtkTypeInt64(6) * size * size;
+  *this->Internal = std::move(made);
+  return vtkTypeInt64(radiance.GetNumberOfTexels());
 }
 
-void vtkIBLIrradiance::Release()
-{
-  *this->Internal = Internals();
-}
+void vtkIBLIrradiance::Release() {}

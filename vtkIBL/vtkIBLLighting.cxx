@@ -39,7 +39,6 @@ struct vtkIBLLighting::Bindings
 
 vtkIBLLighting::vtkIBLLighting()
 {
-  this->Irradiance->SetCubeMap(this->CubeMap);
   this->SpecularChain->SetCubeMap(this->CubeMap);
   this->SetEnvironment(nullptr);
 }
@@ -62,6 +61,7 @@ void vtkIBLLighting::SetEnvironment(vtkIBLEnvironment* environment)
 {
   vtkNew<vtkIBLEnvironment> studio;
   this->CubeMap->SetEnvironment(environment ? environment : studio);
+  this->Irradiance->SetEnvironment(this->CubeMap->GetEnvironment());
   this->Modified();
 }
 
@@ -166,16 +166,16 @@ void vtkIBLLighting::SetShaderParameters(vtkShaderProgram* program, vtkRenderer*
   {
     program->SetUniformi("iblEvenLayers", this->Bound->EvenLayers.GetUnit());
     program->SetUniformi("iblOddLayers", this->Bound->OddLayers.GetUnit());
-    float irradiance[9][3];
-    this->Irradiance->GetPolynomial(irradiance);
-    for (auto& factor : irradiance)
+    float irradiance[7][4];
+    this->Irradiance->GetPacked(irradiance);
+    for (auto& vector : irradiance)
     {
-      for (float& x : factor)
+      for (float& x : vector)
       {
         x = static_cast<float>(x / stored);
       }
     }
-    program->SetUniform3fv("iblIrradiance", 9, irradiance);
+    program->SetUniform4fv("iblIrradiance", 7, irradiance);
   }
 
   float rows[9];

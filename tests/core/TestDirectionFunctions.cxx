@@ -191,38 +191,3 @@ TYPED_TEST(DirectionFunctions, TangentFrame)
     this->ExpectNear(third, { N.x, N.y, N.z }, 4 * eps, where);
   }
 }
-
-// Equal to the reference's basis, which a recurrence makes; orthonormal under a rule that is exact for polynomials of
-// degree 4 (three Gauss points in z, eight even longitudes). Mutants: x and z swapped in band 1; sqrt(5 / 4 pi) / 2
-// without its half.
-TYPED_TEST(DirectionFunctions, Harmonics)
-{
-  USE_SHADER;
-  for (const Vec3& d : this->Directions())
-  {
-    const std::vector<double> basis = reference::HarmonicBasis(2, { d.x, d.y, d.z });
-    for (int k = 0; k < 9; ++k)
-    {
-      ASSERT_NEAR(shader.iblHarmonic(k, d), basis[k], 4 * eps) << k;
-    }
-  }
-  for (int a = 0; a < 9; ++a)
-  {
-    for (int b = 0; b < 9; ++b)
-    {
-      double sum = 0;
-      for (int node = 0; node < 24; ++node)
-      {
-        const double z = (node % 3 - 1) * std::sqrt(0.6), weight = node % 3 == 1 ? 8.0 / 9 : 5.0 / 9;
-        const double phi = reference::Pi / 4 * (node / 3 + 0.3), sine = std::sqrt(1 - z * z);
-        const Vec3 d(sine * std::cos(phi), sine * std::sin(phi), z);
-        sum += weight * reference::Pi / 4 * shader.iblHarmonic(a, d) * shader.iblHarmonic(b, d);
-      }
-      EXPECT_NEAR(sum, a == b, 8 * eps) << a << ", " << b;
-    }
-  }
-  // 2 pi times the integral of max(z, 0) P_l(z). Mutant: 1/pi inside.
-  EXPECT_NEAR(shader.iblCosineLobe(0), reference::Pi, 2 * eps);
-  EXPECT_NEAR(shader.iblCosineLobe(1), 2 * reference::Pi / 3, 2 * eps);
-  EXPECT_NEAR(shader.iblCosineLobe(2), reference::Pi / 4, 2 * eps);
-}

@@ -120,7 +120,7 @@ TEST(SinglePrecision, Directions)
   Worst equirect{ "iblEquirectFromDirection", Absolute, 3 * Eps };
   Worst back{ "iblDirectionFromEquirect", Absolute, 8 * Eps }; // two angles of up to pi
   Worst frame{ "iblTangentFrame", Absolute, 4 * Eps };
-  Worst harmonic{ "iblHarmonic", Absolute, 4 * Eps };
+  Worst irradiance{ "iblPackedIrradiance", Relative, 4 * Eps }; // of terms that add up to 1.9 at most and 0.9 at least
   for (const glm::vec3& d : Directions())
   {
     angle.Compare({ d.z, d.x }, [&](auto& shader) { return shader.iblAngle(d.z, d.x); });
@@ -130,8 +130,16 @@ TEST(SinglePrecision, Directions)
     for (int k = 0; k < 9; ++k)
     {
       frame.Compare({ d.x, d.y, d.z }, [&](auto& shader) { return shader.iblTangentFrame(d)[k % 3]; });
-      harmonic.Compare({ double(k), d.x, d.y, d.z }, [&](auto& shader) { return shader.iblHarmonic(k, d); });
     }
+    irradiance.Compare({ d.x, d.y, d.z },
+      [&](auto& shader)
+      {
+        using vec4 = typename std::decay_t<decltype(shader)>::vec4;
+        vec4 pack[7];
+        std::fill_n(pack, 3, vec4(0.0625, 0.125, -0.0625, 1.375));
+        std::fill_n(pack + 3, 4, vec4(0.125, -0.0625, 0.0625, 0.125));
+        return shader.iblPackedIrradiance(pack, d);
+      });
   }
 }
 

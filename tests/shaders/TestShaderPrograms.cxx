@@ -117,7 +117,7 @@ TEST_F(ShaderPrograms, FormulasAreValidInTheirOrder)
     }
   }
   EXPECT_EQ(this->Complaints("functions", "frag", text + "void main() {}\n"), "");
-  EXPECT_NE(text.find("iblCosineLobe"), std::string::npos);
+  EXPECT_NE(text.find("iblPackedIrradiance"), std::string::npos);
 }
 
 // Light for VTK's mappers, which are #version 150, between what VTK declares and its main. Mutants: a layout(binding =
