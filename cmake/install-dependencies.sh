@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build pkg-config
-  libvtk9-dev libopenimageio-dev libopenexr-dev libglm-dev libkissfft-dev  # the module
+  libvtk9-dev libopenimageio-dev libopenexr-dev libglm-dev libkissfft-dev libxxhash-dev  # the module
   libegl-dev libegl-mesa0 libgl1-mesa-dri                    # OpenGL without an X server
   libcli11-dev nlohmann-json3-dev                            # examples, tool
   libgtest-dev glslang-tools openimageio-tools openexr       # tests
