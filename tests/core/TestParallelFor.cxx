@@ -104,7 +104,7 @@ TEST(TestParallelFor, ABakeCanBeCalledOff)
   const auto bake = [&](const vtkIBLParallelFor& parallelFor)
   {
     std::vector<float> layer(std::size_t(18) * faceSize * faceSize);
-    vtkIBLSpectrum(image, order, parallelFor).Filter(0.4, faceSize, layer.data(), parallelFor);
+    vtkIBLSpectrum(image, order, parallelFor).Filter({ { 0.4, 1.0 } }, faceSize, 0, layer.data(), parallelFor);
     return layer;
   };
   const std::atomic<bool> never{ false };

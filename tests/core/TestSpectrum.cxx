@@ -6,8 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <thread>
 #include <vector>
 
@@ -34,7 +36,7 @@ std::vector<float> Filter(
   image.Height = environment.height;
   const vtkIBLSpectrum spectrum(image, vtkIBLSpectrum::RequiredOrder(roughness), parallelFor);
   std::vector<float> rgb(std::size_t(18) * n * n);
-  spectrum.Filter(roughness, n, rgb.data(), parallelFor);
+  spectrum.Filter({ { roughness, 1.0 } }, n, 0, rgb.data(), parallelFor);
   return rgb;
 }
 
@@ -135,6 +137,54 @@ TEST(TestSpectrum, GivesBackASunExactly)
     {
       EXPECT_GE(x, 0.1f * (1 - 1e-3f));
     }
+  }
+}
+
+// Two suns side by side are one light from far away, and two near by: 1e-3 as above. Mutants: one light everywhere (8
+// %); two of which one is forgotten.
+TEST(TestSpectrum, TellsLampsApart)
+{
+  reference::Environment suns = reference::OneTexelSun({ 1e6, 1e5, 2e6 }, 140, 200, 512, 256, { 0.1, 0.1, 0.1 });
+  const reference::Environment other = reference::OneTexelSun({ 2e5, 1e6, 1e6 }, 142, 200, 512, 256, { 0, 0, 0 });
+  std::transform(suns.rgb.begin(), suns.rgb.end(), other.rgb.begin(), suns.rgb.begin(), std::plus<double>());
+  EXPECT_LT(GetError(suns, 0.25, 32), 3e-3);
+}
+
+// The worst case for bands: every texel a random number. Mutants: an order of 2/alpha, a grid too coarse for it.
+TEST(TestSpectrum, FiltersNoise)
+{
+  reference::Environment noise{ 256, 128, {} };
+  unsigned int state = 1;
+  for (int i = 0; i < 3 * 256 * 128; ++i)
+  {
+    state = state * 1664525u + 1013904223u;
+    noise.rgb.push_back((state >> 8) / double(1 << 24));
+  }
+  for (double roughness : { 0.2, 0.3, 0.45 })
+  {
+    EXPECT_LT(GetError(noise, roughness, 12), 1e-4) << roughness;
+  }
+}
+
+// A wide image is box-reduced: one whose texels come four by four gives what the small one gives. 1e-5: rounding.
+// Mutants: a weight of the blocks' rows, a column off.
+TEST(TestSpectrum, ReducesWideImages)
+{
+  const reference::Environment small = MakeSmooth(2048, 1024);
+  reference::Environment wide{ 4096, 2048, {} };
+  for (int row = 0; row < wide.height; ++row)
+  {
+    for (int column = 0; column < wide.width; ++column)
+    {
+      const double* texel = small.Texel(row / 2, column / 2);
+      wide.rgb.insert(wide.rgb.end(), texel, texel + 3);
+    }
+  }
+  const std::vector<float> a = Filter(small, 0.3, 8);
+  const std::vector<float> b = Filter(wide, 0.3, 8);
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    ASSERT_NEAR(a[i], b[i], 1e-5 * a[i]) << i;
   }
 }
 
