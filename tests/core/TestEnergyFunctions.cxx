@@ -20,48 +20,49 @@ using Precisions = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(EnergyFunctions, Precisions);
 
 // Roughness 0 is layer 0, 0.1 is 1, 1 is the last, and beyond 1 is no further. Mutants: IBL_LOG2_FIRST_ROUGHNESS with
-// six digits (in double); no min(r, 1); IBL_LAYER_COUNT - 1 steps.
+// six digits (in double); no min(r, 1); as many steps as layers.
 TYPED_TEST(EnergyFunctions, LadderEnds)
 {
   using real = TypeParam;
   auto& shader = this->Shader;
-  const double eps = this->Eps, last = IBL_LAYER_COUNT - 1;
-  EXPECT_EQ(shader.iblLayerFromPerceptualRoughness(0), 0);
+  const double eps = this->Eps, last = 10;
+  EXPECT_EQ(shader.iblLayerFromPerceptualRoughness(0, last), 0);
   EXPECT_NEAR(
-    shader.iblLayerFromPerceptualRoughness(real(0.1)), 1, 16 * eps); // 8 steps times the rounding of a log of 3.3
-  EXPECT_EQ(shader.iblLayerFromPerceptualRoughness(1), last);
-  EXPECT_EQ(shader.iblLayerFromPerceptualRoughness(real(1.001)), last);
-  EXPECT_EQ(shader.iblPerceptualRoughnessFromLayer(0), 0);
-  EXPECT_NEAR(shader.iblPerceptualRoughnessFromLayer(1), 0.1, eps);
-  EXPECT_EQ(shader.iblPerceptualRoughnessFromLayer(last), 1);
+    shader.iblLayerFromPerceptualRoughness(real(0.1), last), 1, 18 * eps); // 9 steps times the rounding of a log of 3.3
+  EXPECT_EQ(shader.iblLayerFromPerceptualRoughness(1, last), last);
+  EXPECT_EQ(shader.iblLayerFromPerceptualRoughness(real(1.001), last), last);
+  EXPECT_EQ(shader.iblPerceptualRoughnessFromLayer(0, last), 0);
+  EXPECT_NEAR(shader.iblPerceptualRoughnessFromLayer(1, last), 0.1, eps);
+  EXPECT_EQ(shader.iblPerceptualRoughnessFromLayer(last, last), 1);
   // Continuous at 0.1: the two branches meet, on either side. A last digit of r moves the layer by 35 eps at most.
-  EXPECT_NEAR(shader.iblLayerFromPerceptualRoughness(std::nextafter(real(0.1), real(0))), 1, 40 * eps);
-  EXPECT_NEAR(shader.iblLayerFromPerceptualRoughness(std::nextafter(real(0.1), real(1))), 1, 40 * eps);
+  EXPECT_NEAR(shader.iblLayerFromPerceptualRoughness(std::nextafter(real(0.1), real(0)), last), 1, 40 * eps);
+  EXPECT_NEAR(shader.iblLayerFromPerceptualRoughness(std::nextafter(real(0.1), real(1)), last), 1, 40 * eps);
   // Even steps of log r: all neighbours have one ratio.
-  const double ratio = std::pow(10.0, 1.0 / (IBL_LAYER_COUNT - 2));
+  const double ratio = std::pow(10.0, 1.0 / (last - 1));
   for (int layer = 1; layer < last; ++layer)
   {
-    const double next = shader.iblPerceptualRoughnessFromLayer(layer + 1);
-    EXPECT_NEAR(next / shader.iblPerceptualRoughnessFromLayer(layer), ratio, 8 * eps) << layer;
+    const double next = shader.iblPerceptualRoughnessFromLayer(layer + 1, last);
+    EXPECT_NEAR(next / shader.iblPerceptualRoughnessFromLayer(layer, last), ratio, 8 * eps) << layer;
   }
 }
 
-// Both ways are inverse and rise. 16 eps of a layer up to 9; the way back, 8 eps relative. Mutant: steps - 1 in one of
+// Both ways are inverse and rise. 18 eps of a layer up to 10; the way back, 8 eps relative. Mutant: steps - 1 in one of
 // the two.
 TYPED_TEST(EnergyFunctions, LadderBothWays)
 {
   using real = TypeParam;
   auto& shader = this->Shader;
+  const real last = 10;
   real lower = -1;
   for (int i = 0; i <= 10000; ++i)
   {
-    const real r = real(i) / 10000, layer = shader.iblLayerFromPerceptualRoughness(r);
+    const real r = real(i) / 10000, layer = shader.iblLayerFromPerceptualRoughness(r, last);
     ASSERT_GT(layer, lower) << r;
     lower = layer;
-    ASSERT_NEAR(shader.iblPerceptualRoughnessFromLayer(layer), r, 8 * this->Eps) << r;
-    const real wanted = r * (IBL_LAYER_COUNT - 1);
-    ASSERT_NEAR(
-      shader.iblLayerFromPerceptualRoughness(shader.iblPerceptualRoughnessFromLayer(wanted)), wanted, 16 * this->Eps)
+    ASSERT_NEAR(shader.iblPerceptualRoughnessFromLayer(layer, last), r, 8 * this->Eps) << r;
+    const real wanted = r * last;
+    ASSERT_NEAR(shader.iblLayerFromPerceptualRoughness(shader.iblPerceptualRoughnessFromLayer(wanted, last), last),
+      wanted, 18 * this->Eps)
       << wanted;
   }
 }

@@ -139,7 +139,7 @@ TEST(ShaderSource, IncludesOnce)
     const vtkIBLShaderSource source = vtkIBLAssembleShader(name);
     EXPECT_EQ(source.Files[0], "vtkIBLShared.glsl");
     EXPECT_EQ(std::set<std::string>(source.Files.begin(), source.Files.end()).size(), source.Files.size()) << name;
-    EXPECT_EQ(Count(source.Text, "#define IBL_LAYER_COUNT"), 1u) << name;
+    EXPECT_EQ(Count(source.Text, "#define IBL_TILE"), 1u) << name;
     EXPECT_EQ(Count(source.Text, "#include"), 0u) << name;
   }
   EXPECT_EQ(vtkIBLAssembleShader("vtkIBLShared.glsl").Files.size(), 1u);
