@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIBLImageReader.h"
 
+#include "vtkIBLThreads.h"
+
 #include "vtkErrorCode.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
@@ -34,7 +36,7 @@ vtkStandardNewMacro(vtkIBLImageReader);
 
 namespace
 {
-constexpr std::int64_t BandBytes = std::int64_t(32) << 20;
+constexpr std::int64_t BandBytes = std::int64_t(16) << 20;
 
 // What is wrong with a file. Thrown and caught in this file only.
 struct ReadError : std::runtime_error
@@ -106,11 +108,13 @@ struct Plan
   int X, Y, Width, Height; // the picture, in the file's pixel coordinates
   int FirstChannel, EndChannel;
   std::array<int, 3> Channels; // of red, green, blue; counted from FirstChannel
+  OIIO::TypeDesc Stored;       // as numbers come from OpenImageIO
   bool IsSRGB;
-  std::vector<float> DecodedSRGB; // of k/65535, for integer files
-  std::array<int, 3> Dimensions;  // of the output
+  std::vector<float> Decoded;    // light by number, for files of 8 and 16 bits
+  std::array<int, 3> Dimensions; // of the output
+  int PatchWidth;                // in pixels
   std::vector<Patch> Patches;
-  std::vector<Tap> ColumnTaps, RowTaps; // sorted by From
+  std::vector<Tap> ColumnTaps, RowTaps; // sorted by To
 };
 
 std::string SizeOf(int width, int height)
@@ -221,12 +225,14 @@ void ChooseColorSpace(Plan& plan, int colorSpace)
   plan.IsSRGB = colorSpace == vtkIBLImageReader::ColorSpaceSRGB ||
     (colorSpace == vtkIBLImageReader::ColorSpaceAuto && !format.is_floating_point() && format.size() <= 2 &&
       !saysLinear);
-  if (plan.IsSRGB && (format == OIIO::TypeDesc::UINT8 || format == OIIO::TypeDesc::UINT16))
+  plan.Stored = plan.Spec.channelformats.empty() ? format : OIIO::TypeDesc(OIIO::TypeDesc::FLOAT);
+  if (plan.Stored == OIIO::TypeDesc::UINT8 || plan.Stored == OIIO::TypeDesc::UINT16)
   {
-    plan.DecodedSRGB.resize(65536); // 255 divides 65535: exact for both
-    for (int k = 0; k < 65536; ++k)
+    const int largest = plan.Stored == OIIO::TypeDesc::UINT8 ? 255 : 65535;
+    for (int k = 0; k <= largest; ++k)
     {
-      plan.DecodedSRGB[k] = DecodeSRGB(k / 65535.0);
+      const double value = double(k) / largest;
+      plan.Decoded.push_back(plan.IsSRGB ? DecodeSRGB(value) : float(value));
     }
   }
 }
@@ -259,7 +265,6 @@ std::vector<Tap> MakeTaps(int from, int to, bool isLatitude, bool isOnBorder)
       add(source + 1, target, weight * (position - source));
     }
   }
-  std::sort(taps.begin(), taps.end(), [](const Tap& a, const Tap& b) { return a.From < b.From; });
   return taps;
 }
 
@@ -326,6 +331,7 @@ void Arrange(Plan& plan, int layout, int maximumWidth, const std::string& envmap
   const int factor = maximumWidth > 0 ? (width - 1) / maximumWidth + 1 : 1;
   const int columns = std::max(width / factor, 1), rows = std::max(height / factor, 1);
   plan.Dimensions = { columns, rows, cube ? 6 : 1 };
+  plan.PatchWidth = width;
   plan.ColumnTaps = MakeTaps(width, columns, false, !envmap.empty());
   plan.RowTaps = MakeTaps(height, rows, !cube, !envmap.empty());
   if (!cube)
@@ -364,77 +370,117 @@ Plan MakePlan(vtkIBLImageReader* reader, const OIIO::ImageInput& input)
   return plan;
 }
 
-// A row of the data window to linear RGB over the picture's width; `row` stays black outside of the data window.
-void DecodeRow(const Plan& plan, const float* pixels, float* row)
+// Rows of the file as it stores them, of the channels that are needed.
+struct Band
+{
+  int Begin, End; // in the file's pixel coordinates
+  std::size_t RowBytes;
+  std::vector<unsigned char> Bytes;
+};
+
+// What of row y of the picture lies in a patch, to linear RGB; `row` stays black outside of the data window.
+void DecodeRow(const Plan& plan, const Band& band, const Patch& patch, int y, std::vector<float>& row)
 {
   const int channels = plan.EndChannel - plan.FirstChannel;
-  const int begin = std::max(plan.Spec.x, plan.X);
-  const int end = std::min(plan.Spec.x + plan.Spec.width, plan.X + plan.Width);
-  for (int x = begin; x < end; ++x)
+  const int left = plan.X + patch.X;
+  const int begin = std::max(plan.Spec.x, left);
+  const int end = std::min(plan.Spec.x + plan.Spec.width, left + plan.PatchWidth);
+  if (begin >= end)
   {
-    const float* pixel = pixels + std::int64_t(x - plan.Spec.x) * channels;
-    float* target = row + std::int64_t(x - plan.X) * 3;
-    for (int c = 0; c < 3; ++c)
+    return;
+  }
+  const unsigned char* stored = band.Bytes.data() + (plan.Y + y - band.Begin) * band.RowBytes +
+    std::size_t(begin - plan.Spec.x) * channels * plan.Stored.size();
+  const auto decode = [&](const auto* pixel, const auto& toLight)
+  {
+    float* target = row.data() + std::size_t(begin - left) * 3;
+    for (int x = begin; x < end; ++x, pixel += channels)
     {
-      const float v = pixel[plan.Channels[c]];
-      const auto& table = plan.DecodedSRGB;
-      target[c] = !plan.IsSRGB ? v : table.empty() ? DecodeSRGB(v) : table[std::size_t(v * 65535.0f + 0.5f)];
+      for (int c = 0; c < 3; ++c)
+      {
+        *target++ = toLight(pixel[plan.Channels[c]]);
+      }
     }
+  };
+  const auto byNumber = [&plan](int number) { return plan.Decoded[number]; };
+  if (plan.Stored == OIIO::TypeDesc::UINT8)
+  {
+    decode(stored, byNumber);
+  }
+  else if (plan.Stored == OIIO::TypeDesc::UINT16)
+  {
+    decode(reinterpret_cast<const std::uint16_t*>(stored), byNumber);
+  }
+  else
+  {
+    std::vector<float> pixels(std::size_t(end - begin) * channels);
+    OIIO::convert_pixel_values(plan.Stored, stored, OIIO::TypeDesc::FLOAT, pixels.data(), int(pixels.size()));
+    decode(pixels.data(), [&plan](float v) { return plan.IsSRGB ? DecodeSRGB(v) : v; });
   }
 }
 
-// Adds row y of the picture to the texels that it belongs to; `line` is room for a row of texels.
-void AddRow(const Plan& plan, int y, const float* row, std::vector<double>& line, float* texels)
+// Adds to row `to` of a patch what the band has for it.
+void AddBand(const Plan& plan, const Band& band, const Patch& patch, int to, float* texels)
 {
-  for (const Patch& patch : plan.Patches)
+  const int top = plan.Y + patch.Y;
+  const auto isBefore = [](const Tap& tap, int row) { return tap.To < row; };
+  auto rowTap = std::lower_bound(plan.RowTaps.begin(), plan.RowTaps.end(), to, isBefore);
+  std::vector<float> row;
+  std::vector<double> line;
+  for (; rowTap != plan.RowTaps.end() && rowTap->To == to; ++rowTap)
   {
-    const auto isAbove = [](const Tap& tap, int from) { return tap.From < from; };
-    auto rowTap = std::lower_bound(plan.RowTaps.begin(), plan.RowTaps.end(), y - patch.Y, isAbove);
-    if (rowTap == plan.RowTaps.end() || rowTap->From != y - patch.Y)
+    if (top + rowTap->From < band.Begin || top + rowTap->From >= band.End)
     {
       continue;
     }
-    std::fill(line.begin(), line.end(), 0.0);
-    for (const Tap& tap : plan.ColumnTaps)
+    row.resize(std::size_t(plan.PatchWidth) * 3);
+    line.resize(std::size_t(plan.Dimensions[0]) * 3);
+    DecodeRow(plan, band, patch, patch.Y + rowTap->From, row);
+    for (auto tap = plan.ColumnTaps.begin(); tap != plan.ColumnTaps.end();)
     {
-      const float* pixel = row + std::int64_t(patch.X + tap.From) * 3;
-      for (int c = 0; c < 3; ++c)
-      {
-        line[tap.To * 3 + c] += tap.Weight * pixel[c];
-      }
-    }
-    for (; rowTap != plan.RowTaps.end() && rowTap->From == y - patch.Y; ++rowTap)
-    {
-      float* texel = texels + (patch.First + rowTap->To * patch.StepDown) * 3;
-      for (std::size_t i = 0; i < line.size(); i += 3, texel += patch.StepRight * 3)
+      double sum[3] = {};
+      const int column = tap->To;
+      for (; tap != plan.ColumnTaps.end() && tap->To == column; ++tap)
       {
         for (int c = 0; c < 3; ++c)
         {
-          texel[c] = static_cast<float>(texel[c] + rowTap->Weight * line[i + c]);
+          sum[c] += tap->Weight * row[std::size_t(tap->From) * 3 + c];
         }
       }
+      for (int c = 0; c < 3; ++c)
+      {
+        line[column * 3 + c] += rowTap->Weight * sum[c];
+      }
+    }
+  }
+  float* texel = texels + (patch.First + to * patch.StepDown) * 3;
+  for (std::size_t i = 0; i < line.size(); i += 3, texel += patch.StepRight * 3)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      texel[c] = static_cast<float>(texel[c] + line[i + c]);
     }
   }
 }
 
-// Rows begin to end of the data window, as floats of the channels that are needed.
-void ReadBand(OIIO::ImageInput& input, const Plan& plan, int begin, int end, float* band)
+void ReadBand(OIIO::ImageInput& input, const Plan& plan, Band& band)
 {
   const OIIO::ImageSpec& spec = plan.Spec;
   const int first = plan.FirstChannel, last = plan.EndChannel;
   const bool isRead = spec.tile_width
-    ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, 0, 1, first, last, OIIO::TypeDesc::FLOAT, band)
-    : input.read_scanlines(0, 0, begin, end, 0, first, last, OIIO::TypeDesc::FLOAT, band);
+    ? input.read_tiles(
+        0, 0, spec.x, spec.x + spec.width, band.Begin, band.End, 0, 1, first, last, plan.Stored, band.Bytes.data())
+    : input.read_scanlines(0, 0, band.Begin, band.End, 0, first, last, plan.Stored, band.Bytes.data());
   if (!isRead)
   {
     throw ReadError(vtkErrorCode::PrematureEndOfFileError,
-      "its pixels cannot be read from row " + std::to_string(begin - spec.y) + " of " + std::to_string(spec.height) +
-        " on: " + input.geterror() + " The file is damaged or cut; get it again.");
+      "its pixels cannot be read from row " + std::to_string(band.Begin - spec.y) + " of " +
+        std::to_string(spec.height) + " on: " + input.geterror() + " The file is damaged or cut; get it again.");
   }
 }
 
-// Streams the picture band by band into zeroed texels. `goOn` hears the share that is done; false from it ends the
-// read.
+// Streams the picture band by band into zeroed texels, each row of which is one thread's. `goOn` hears the share that
+// is done; false from it ends the read.
 bool ReadPixels(OIIO::ImageInput& input, const Plan& plan, const std::function<bool(double)>& goOn, float* texels)
 {
   const OIIO::ImageSpec& spec = plan.Spec;
@@ -443,25 +489,24 @@ bool ReadPixels(OIIO::ImageInput& input, const Plan& plan, const std::function<b
   {
     return goOn(1.0); // the windows don't meet: all is black
   }
-  const std::int64_t rowSize = std::int64_t(spec.width) * (plan.EndChannel - plan.FirstChannel);
+  Band band;
+  band.RowBytes = std::size_t(spec.width) * (plan.EndChannel - plan.FirstChannel) * plan.Stored.size();
   const int unit = spec.tile_width ? spec.tile_height : 1; // tiles are read whole
-  const int fitting = int(std::min<std::int64_t>(spec.height, BandBytes / (rowSize * std::int64_t(sizeof(float)))));
+  const int fitting = int(std::min<std::int64_t>(spec.height, BandBytes / std::int64_t(band.RowBytes)));
   const int rows = std::max(fitting / unit, 1) * unit;
-  std::vector<float> band(rowSize * std::min(rows, spec.height)), row(std::size_t(plan.Width) * 3);
-  std::vector<double> line(std::size_t(plan.Dimensions[0]) * 3);
+  band.Bytes.resize(band.RowBytes * std::min(rows, spec.height));
+  const int targets = plan.Dimensions[1];
   for (int y = spec.y + (first - spec.y) / rows * rows; y < last; y += rows)
   {
     if (!goOn(double(std::max(y, first) - first) / (last - first)))
     {
       return false;
     }
-    const int end = std::min(y + rows, spec.y + spec.height);
-    ReadBand(input, plan, y, end, band.data());
-    for (int r = std::max(y, first); r < std::min(end, last); ++r)
-    {
-      DecodeRow(plan, band.data() + (r - y) * rowSize, row.data());
-      AddRow(plan, r - plan.Y, row.data(), line, texels);
-    }
+    band.Begin = y;
+    band.End = std::min(y + rows, spec.y + spec.height);
+    ReadBand(input, plan, band);
+    vtkIBLRunOnThreads(int(plan.Patches.size()) * targets,
+      [&](int task) { AddBand(plan, band, plan.Patches[task / targets], task % targets, texels); });
   }
   return goOn(1.0);
 }

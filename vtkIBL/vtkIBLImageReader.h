@@ -109,11 +109,11 @@ public:
   ///@{
   /**
    * The widest output, in pixels: of the panorama, or of one cube face. A wider picture is reduced while it is read, by
-   * the smallest integer factor f that is enough. Memory is then the output and one band of rows (32 MiB, or one row of
-   * tiles), and what OpenImageIO and the decoder hold: 8192 x 4096 to 1024 x 512 takes 50 to 70 MiB more than the
-   * output, 180 MiB with DWAB. A pixel of a panorama is the mean of its f x f pixels by their solid angle, one of a
-   * cube face their plain mean. When f is no divisor of the width, the pixels at a cell's border count by their share.
-   * Too small blurs mirrors; too large costs memory. Default: 0, never reduce.
+   * the smallest integer factor f that is enough, on all threads. Memory is then the output, one band of rows (16 MiB
+   * as stored, or one row of tiles), and what OpenImageIO and the decoder hold: 16384 x 8192 takes up to 70 MiB more
+   * than the output, 250 MiB with DWAB. A pixel of a panorama is the mean of its f x f pixels by their solid angle, one
+   * of a cube face their plain mean. When f is no divisor of the width, the pixels at a cell's border count by their
+   * share. Too small blurs mirrors; too large costs memory. Default: 0, never reduce.
    */
   vtkSetClampMacro(MaximumWidth, int, 0, VTK_INT_MAX);
   vtkGetMacro(MaximumWidth, int);
