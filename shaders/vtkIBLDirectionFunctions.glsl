@@ -76,3 +76,12 @@ float iblCubeSolidAngle(float s0, float t0, float s1, float t1)
   float twiceArea = (s1 - s0) * (t1 - t0);
   return iblTriangleSolidAngle(a, b, c, twiceArea) + iblTriangleSolidAngle(a, c, d, twiceArea);
 }
+
+// Mip levels to add where a unit direction hits a face off its centre, because texels there have a smaller solid angle, cos^3 of
+// that at the centre (cos = the largest component): -3/2 log2(cos), to 0.02, as a polynomial of sin^2.
+float iblCubeLodOffset(vec3 direction)
+{
+  float cosine = max(abs(direction.x), max(abs(direction.y), abs(direction.z)));
+  float sine2 = 1.0 - cosine * cosine;
+  return sine2 * (0.85 + 1.36 * sine2);
+}

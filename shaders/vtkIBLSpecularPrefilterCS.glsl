@@ -1,21 +1,20 @@
-// Radiance cube -> one layer of the specular ladder: the GGX lobe's mean around N = V = R, each sample weighted by NoL and read
-// from the mip level that holds the solid angle it stands for (Karis 2013; Krivanek & Colbert 2008). Directions, weights and
-// levels are the same for all texels but for the frame, so they come ready from the CPU, made in double.
-// Reads:  source (samplerCube), samples (std430, binding 0): (direction in the tangent frame, level), weights in a second
-//         array of the same length, their sum 1; radianceScale: what the stored layer is divided by.
-// Writes: layer (imageCube, rgba16f).
+// Radiance cube -> one sharp layer of the specular ladder: the lobe's core by samples of equal weight, each read at the mip level
+// of its solid angle (Krivanek & Colbert 2008), the rest of the lobe out of the next rougher layer. Directions and levels come ready
+// from the CPU, made in double (vtkIBLSampleTable; docs/derivations/sampled-filter.md).
+// Reads:  source (samplerCube), radiance; samples (std430, binding 0): direction in the tangent frame, level where it hits a
+//         face's centre; tail (samplerCube): the rougher layer at tailLevel, with the weight tailWeight; radianceScale.
+// Writes: layer (imageCube, binding 0, rgba16f).
 // Dispatch: (n / IBL_TILE, n / IBL_TILE, 6).
 layout(local_size_x = IBL_TILE, local_size_y = IBL_TILE) in;
 uniform samplerCube source;
+uniform samplerCube tail;
+uniform float tailLevel;
+uniform float tailWeight;
 uniform int sampleCount;
 uniform float radianceScale;
 layout(std430, binding = 0) readonly buffer Samples
 {
   vec4 samples[];
-};
-layout(std430, binding = 1) readonly buffer Weights
-{
-  float weights[];
 };
 layout(binding = 0, rgba16f) writeonly uniform imageCube layer;
 
@@ -31,13 +30,15 @@ void main()
     return;
   }
   vec2 st = (2.0 * vec2(texel.xy) + 1.0) / float(n) - 1.0;
-  mat3 frame = iblTangentFrame(normalize(iblCubeDirection(texel.z, st.x, st.y)));
+  vec3 R = normalize(iblCubeDirection(texel.z, st.x, st.y));
+  mat3 frame = iblTangentFrame(R);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < sampleCount; ++i)
   {
-    vec4 sampled = samples[i];
-    sum += weights[i] * textureLod(source, frame * sampled.xyz, sampled.w).rgb;
+    vec3 L = frame * samples[i].xyz;
+    sum += textureLod(source, L, samples[i].w + iblCubeLodOffset(L)).rgb;
   }
-  const float largestHalf = 65504.0;
-  imageStore(layer, texel, vec4(min(sum * radianceScale, vec3(largestHalf)), 1.0));
+  vec3 core = sum * (radianceScale / float(sampleCount));
+  vec3 mean = mix(core, textureLod(tail, R, tailLevel).rgb, tailWeight);
+  imageStore(layer, texel, vec4(min(mean, vec3(IBL_LARGEST_HALF)), 1.0));
 }

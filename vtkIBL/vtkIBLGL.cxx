@@ -324,7 +324,7 @@ void DispatchTiles(int size, int layers)
 void FinishDispatch()
 {
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-    GL_BUFFER_UPDATE_BARRIER_BIT);
+    GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   CheckErrors("running a compute shader");
 }
 }

@@ -173,6 +173,28 @@ TYPED_TEST(DirectionFunctions, SolidAngle)
   }
 }
 
+// Half the log2 of how much smaller a texel is than one at the face's centre, against texels' exact solid angles on a
+// fine face. 2e-2 levels, 3 % of a solid angle: what the polynomial gives away for being one. Mutants: cos for
+// cos^2; a sign; one octave for half.
+TYPED_TEST(DirectionFunctions, CubeLodOffset)
+{
+  constexpr int n = 64;
+  const double centre = reference::CubeTexelSolidAngle(n, n / 2, n / 2);
+  for (int face = 0; face < 6; ++face)
+  {
+    for (int i = 0; i < n; ++i)
+    {
+      for (int j = 0; j < n; ++j)
+      {
+        const reference::Vec3 d = reference::CubeDirection(face, (2 * i + 1.0) / n - 1, (2 * j + 1.0) / n - 1);
+        const double exact = 0.5 * std::log2(centre / reference::CubeTexelSolidAngle(n, i, j));
+        ASSERT_NEAR(this->Shader.iblCubeLodOffset(typename TestFixture::Vec3(d.x, d.y, d.z)), exact, 2e-2)
+          << face << ", " << i << ", " << j;
+      }
+    }
+  }
+}
+
 // A right-handed orthonormal frame whose third column is the normal, to the bit. 4 eps. At -z the naive 1 / (1 + z) is
 // infinite, beside it has no digits. Mutants: no `side`; the first two columns swapped.
 TYPED_TEST(DirectionFunctions, TangentFrame)

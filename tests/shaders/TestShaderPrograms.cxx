@@ -94,7 +94,7 @@ std::string Legend(const vtkIBLShaderSource& source)
 TEST_F(ShaderPrograms, KernelsAreValid)
 {
   const std::vector<std::string> kernels = GetNames([](const std::string& name) { return !GetStage(name).empty(); });
-  EXPECT_GE(kernels.size(), 6u); // four of the stages, two of the background
+  EXPECT_GE(kernels.size(), 8u); // six of the stages, two of the background
   for (const std::string& name : kernels)
   {
     const vtkIBLShaderSource source = vtkIBLAssembleShader(name);
