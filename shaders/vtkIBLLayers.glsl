@@ -1,19 +1,22 @@
-// Reads the specular ladder: layers alternate between two cube maps, one a mip level.
-uniform samplerCube iblEvenLayers;
+// Reads the specular ladder: odd layers are the mip levels of one cube map, even ones those of another.
+uniform samplerCube iblRadiance;
 uniform samplerCube iblOddLayers;
+uniform samplerCube iblEvenLayers;
+uniform float iblLayers;      // number of the last layer
+uniform float iblStoredScale; // what layers are divided by, and the radiance cube is not
 
 #include "vtkIBLLadderFunctions.glsl"
 
 // Stored light from direction [environment space] through a GGX lobe of perceptualRoughness.
 vec3 iblPrefilteredRadiance(vec3 direction, float perceptualRoughness)
 {
-  float layer = clamp(iblLayerFromPerceptualRoughness(perceptualRoughness), 0.0, float(IBL_LAYER_COUNT - 1));
-  float below = min(floor(layer), float(IBL_LAYER_COUNT - 2));
-  float evenLevel = floor(0.5 * (below + 1.0));
-  float oddLevel = floor(0.5 * below);
-  vec3 even = textureLod(iblEvenLayers, direction, evenLevel).rgb;
-  vec3 odd = textureLod(iblOddLayers, direction, oddLevel).rgb;
-  bool belowIsEven = 2.0 * evenLevel == below;
+  float layer = clamp(iblLayerFromPerceptualRoughness(perceptualRoughness, iblLayers), 0.0, iblLayers);
+  float below = min(floor(layer), iblLayers - 1.0);
   float share = layer - below;
+  float level = floor(0.5 * below);
+  bool belowIsEven = 2.0 * level == below;
+  vec3 even = below == 0.0 ? textureLod(iblRadiance, direction, 0.0).rgb / iblStoredScale
+                           : textureLod(iblEvenLayers, direction, belowIsEven ? level - 1.0 : level).rgb;
+  vec3 odd = share == 0.0 && belowIsEven ? even : textureLod(iblOddLayers, direction, level).rgb;
   return mix(even, odd, belowIsEven ? share : 1.0 - share);
 }

@@ -47,7 +47,7 @@ bool vtkIBLBRDFTable::UpdateInput(vtkOpenGLRenderWindow*, vtkMTimeType&)
   return true;
 }
 
-vtkTypeInt64 vtkIBLBRDFTable::Build(vtkOpenGLRenderWindow* window)
+std::vector<vtkIBLStatistics::Work> vtkIBLBRDFTable::Build(vtkOpenGLRenderWindow* window)
 {
   using namespace vtkIBLGL;
   Texture table = Texture::Image2D(window, Size, Size, GL_RG16);
@@ -61,7 +61,7 @@ vtkTypeInt64 vtkIBLBRDFTable::Build(vtkOpenGLRenderWindow* window)
     this->Sample(window, table);
   }
   this->Internal->Table = std::move(table);
-  return vtkTypeInt64(Size) * Size;
+  return { { vtkIBLStatistics::BRDFTable, 1, Size * Size, 4 * Size * Size } };
 }
 
 void vtkIBLBRDFTable::Sample(vtkOpenGLRenderWindow* window, const vtkIBLGL::Texture& table)

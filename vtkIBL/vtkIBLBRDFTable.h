@@ -70,7 +70,7 @@ protected:
   ~vtkIBLBRDFTable() override;
 
   bool UpdateInput(vtkOpenGLRenderWindow* window, vtkMTimeType& inputTime) override;
-  vtkTypeInt64 Build(vtkOpenGLRenderWindow* window) override;
+  std::vector<vtkIBLStatistics::Work> Build(vtkOpenGLRenderWindow* window) override;
   void Release() override;
 
 private:

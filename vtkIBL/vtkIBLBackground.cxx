@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIBLBackground.h"
 
-#include "vtkIBLCubeMap.h"
 #include "vtkIBLEnvironment.h"
 #include "vtkIBLGL.h"
 #include "vtkIBLLighting.h"
-#include "vtkIBLSpecularChain.h"
 
 #include "vtkCamera.h"
 #include "vtkMath.h"
@@ -72,15 +70,8 @@ int vtkIBLBackground::RenderOpaqueGeometry(vtkViewport* viewport)
       gl.Program = Program::Draw(window, "vtkIBLBackgroundVS.glsl", "vtkIBLBackgroundFS.glsl");
       gl.NoVertices = VertexArray::Make(window);
     }
-    const vtkIBLSpecularChain* chain = this->Lighting->GetSpecularChain();
-    const BoundTexture cube(window, this->Lighting->GetCubeMap()->GetTexture());
-    const BoundTexture even(window, chain->GetEvenLayers());
-    const BoundTexture odd(window, chain->GetOddLayers());
-    gl.Program.Set("cube", cube.GetUnit());
-    gl.Program.Set("iblEvenLayers", even.GetUnit());
-    gl.Program.Set("iblOddLayers", odd.GetUnit());
+    this->Lighting->SetLayerParameters(gl.Program);
     gl.Program.Set("blur", float(this->Blur));
-    gl.Program.Set("storedScale", float(chain->GetStoredScale()));
 
     glm::vec2 scale;
     glm::vec2 shift;

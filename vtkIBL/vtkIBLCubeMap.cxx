@@ -46,13 +46,11 @@ int CountLevels(int faceSize)
   return levels;
 }
 
-int ChooseFaceSize(int wanted, const vtkIBLRadianceImage& radiance)
+// `own`: what keeps the source's detail.
+int ChooseFaceSize(int wanted, int own)
 {
   constexpr int least = 16;
   constexpr int largestByDefault = 512;
-  // At a face's centre a texel spans 2/n radians; one of the image 2 pi/W. W/4 is the power of two that keeps its
-  // detail.
-  const int own = radiance.Faces == 6 ? radiance.Width : radiance.Width / 4;
   return std::max(FloorPowerOfTwo(wanted > 0 ? wanted : std::min(own, largestByDefault)), least);
 }
 
@@ -92,7 +90,7 @@ void vtkIBLCubeMap::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Environment: " << this->Environment.Get() << "\n"
      << indent << "FaceSize: " << this->FaceSize << "\n"
      << indent << "OutputFaceSize: " << this->OutputFaceSize << "\n"
-     << indent << "MeanLuminance: " << this->MeanLuminance << "\n";
+     << indent << "MipLevelsNeeded: " << this->MipLevelsNeeded << "\n";
 }
 
 void vtkIBLCubeMap::SetEnvironment(vtkIBLEnvironment* environment)
@@ -111,7 +109,7 @@ vtkIBLEnvironment* vtkIBLCubeMap::GetEnvironment() const
 
 int vtkIBLCubeMap::GetNumberOfLevels() const
 {
-  return this->OutputFaceSize > 0 ? CountLevels(this->OutputFaceSize) : 0;
+  return this->OutputLevels;
 }
 
 const vtkIBLGL::Texture& vtkIBLCubeMap::GetTexture() const
@@ -129,15 +127,22 @@ bool vtkIBLCubeMap::UpdateInput(vtkOpenGLRenderWindow*, vtkMTimeType& inputTime)
   return true;
 }
 
-vtkTypeInt64 vtkIBLCubeMap::Build(vtkOpenGLRenderWindow* window)
+vtkIBLStatistics* vtkIBLCubeMap::GetInputStatistics() const
+{
+  return this->Environment->GetStatistics();
+}
+
+std::vector<vtkIBLStatistics::Work> vtkIBLCubeMap::Build(vtkOpenGLRenderWindow* window)
 {
   using namespace vtkIBLGL;
-  const vtkIBLRadianceImage radiance = this->Environment->GetRadiance();
-  const int faceSize = ChooseFaceSize(this->FaceSize, radiance);
-  const int levels = CountLevels(faceSize);
+  const bool isCube = this->Environment->GetNumberOfFaces() == 6;
+  const int width = this->Environment->GetWidth();
+  // At a face's centre a texel spans 2/n radians; one of a lat-long image 2 pi/W.
+  const int faceSize = ChooseFaceSize(this->FaceSize, isCube ? width : width / 4);
+  const int levels = this->MipLevelsNeeded ? CountLevels(faceSize) : 1;
 
   Internals& gl = *this->Internal;
-  if (!gl.Resample)
+  if (!gl.Resample && (isCube || levels > 1))
   {
     gl.Resample = Program::Compute(window, "vtkIBLCubeResampleCS.glsl");
   }
@@ -150,18 +155,17 @@ vtkTypeInt64 vtkIBLCubeMap::Build(vtkOpenGLRenderWindow* window)
     DispatchTiles(faceSize >> level, 6);
   };
 
-  if (radiance.Faces == 6)
+  if (isCube)
   {
-    RequireTextureSize(radiance.Width);
-    const Texture faces = Texture::Cube(window, radiance.Width, 1, GL_RGBA32F);
-    Upload(faces, radiance.Width, radiance.RGB);
+    RequireTextureSize(width);
+    const vtkIBLRadianceImage radiance = this->Environment->GetRadiance();
+    const Texture faces = Texture::Cube(window, width, 1, GL_RGBA32F);
+    Upload(faces, width, radiance.RGB);
     resample(faces, 0, 0);
   }
   else
   {
-    std::vector<float> rgb(std::size_t(18) * faceSize * faceSize);
-    vtkIBLConvertToCube(radiance, faceSize, rgb.data(), vtkIBLRunOnThreads);
-    Upload(cube, faceSize, rgb.data());
+    Upload(cube, faceSize, this->Environment->GetCube(faceSize));
   }
   for (int level = 1; level < levels; ++level)
   {
@@ -170,14 +174,16 @@ vtkTypeInt64 vtkIBLCubeMap::Build(vtkOpenGLRenderWindow* window)
 
   gl.Cube = std::move(cube);
   this->OutputFaceSize = faceSize;
-  this->MeanLuminance = this->Environment->GetMeanLuminance();
-  return vtkTypeInt64(8) * faceSize * faceSize; // six faces, and a third more for the levels
+  this->OutputLevels = levels;
+  const auto texels = vtkTypeInt64(levels > 1 ? 8 : 6) * faceSize * faceSize; // six faces, and a third more for levels
+  return { { vtkIBLStatistics::CubeMap, 1, texels, 16 * texels } };
 }
 
 void vtkIBLCubeMap::Release()
 {
   *this->Internal = Internals();
   this->OutputFaceSize = 0;
+  this->OutputLevels = 0;
 }
 
 vtkSmartPointer<vtkImageData> vtkIBLCubeMap::ReadLevel(int level)

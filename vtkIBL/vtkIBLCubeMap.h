@@ -49,12 +49,19 @@ public:
 
   ///@{
   /**
-   * The output: face size and mip levels of the last build, and the environment's mean luminance at that time (0 when
-   * black).
+   * Whether anybody samples the cube map, and so reads its mip levels: the sampled engine and vtkIBLLighting's
+   * SamplesPerPixel. Default on; vtkIBLLighting turns it off where mirrors and the background are all.
+   */
+  vtkSetMacro(MipLevelsNeeded, bool);
+  vtkGetMacro(MipLevelsNeeded, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The output: face size and mip levels of the last build.
    */
   vtkGetMacro(OutputFaceSize, int);
   int GetNumberOfLevels() const;
-  vtkGetMacro(MeanLuminance, double);
   const vtkIBLGL::Texture& GetTexture() const;
   ///@}
 
@@ -69,7 +76,8 @@ protected:
   ~vtkIBLCubeMap() override;
 
   bool UpdateInput(vtkOpenGLRenderWindow* window, vtkMTimeType& inputTime) override;
-  vtkTypeInt64 Build(vtkOpenGLRenderWindow* window) override;
+  vtkIBLStatistics* GetInputStatistics() const override;
+  std::vector<vtkIBLStatistics::Work> Build(vtkOpenGLRenderWindow* window) override;
   void Release() override;
 
 private:
@@ -80,8 +88,9 @@ private:
   std::unique_ptr<Internals> Internal;
   vtkSmartPointer<vtkIBLEnvironment> Environment;
   int FaceSize = 0;
+  bool MipLevelsNeeded = true;
   int OutputFaceSize = 0;
-  double MeanLuminance = 0.0;
+  int OutputLevels = 0;
 };
 
 #endif

@@ -2,12 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIBLEnvironment.h"
 
+#include "vtkIBLCache.h"
+#include "vtkIBLCubeConversion.h"
 #include "vtkIBLImageReader.h"
 #include "vtkIBLRadianceImage.h"
+#include "vtkIBLSpectrum.h"
+#include "vtkIBLStatistics.h"
+#include "vtkIBLStopwatch.h"
+#include "vtkIBLStoredLight.h"
 #include "vtkIBLStudio.h"
+#include "vtkIBLThreads.h"
 
 #include "vtkAlgorithmOutput.h"
+#include "vtkCallbackCommand.h"
 #include "vtkDataArray.h"
+#include "vtkExecutive.h"
+#include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
@@ -15,8 +25,13 @@
 #include "vtkTrivialProducer.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
-#include <limits>
+#include <functional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
 
 vtkStandardNewMacro(vtkIBLEnvironment);
 
@@ -59,11 +74,196 @@ double LinearFromSRGB(double x)
 {
   return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
 }
+
+// What a file or an input turned out to be.
+struct Source
+{
+  std::shared_ptr<const vtkIBLStoredLight> Light;
+  vtkSmartPointer<vtkImageData> Radiance;
+};
+
+Source Clean(vtkImageData* radiance)
+{
+  vtkIBLRadianceImage view = View(radiance);
+  auto light = std::make_shared<vtkIBLStoredLight>();
+  light->Faults = vtkIBLCleanRadiance(view);
+  light->MeanLuminance = vtkIBLMeanLuminance(view);
+  light->SourceWidth = view.Width;
+  light->SourceHeight = view.Height;
+  light->SourceFaces = view.Faces;
+  return { light, radiance };
 }
 
-vtkIBLEnvironment::vtkIBLEnvironment()
+void AddSpectrum(vtkIBLStoredLight& light, const vtkIBLSpectrum& spectrum)
 {
-  this->Reader->SetMaximumWidth(4096);
+  light.SpectrumOrder = spectrum.GetOrder();
+  light.Coefficients = spectrum.GetCoefficients();
+  light.BrightTexels = spectrum.GetBrightTexels();
+}
+
+vtkIBLStatistics::Work CountRead(vtkImageData* radiance, const vtkIBLStopwatch& stopwatch)
+{
+  const vtkTypeInt64 texels = radiance->GetNumberOfPoints();
+  return { vtkIBLStatistics::Read, 1, texels, 12 * texels, stopwatch.GetSeconds() };
+}
+
+vtkIBLStatistics::Work CountHarmonics(const vtkIBLStoredLight& light, const vtkIBLStopwatch& stopwatch)
+{
+  const auto texels = vtkTypeInt64(light.SourceFaces) * light.SourceWidth * light.SourceHeight;
+  return { vtkIBLStatistics::Harmonics, 1, texels, 12 * texels, stopwatch.GetSeconds() };
+}
+}
+
+// A file and how it is read: all that its light depends on but its content.
+struct vtkIBLEnvironment::File
+{
+  std::string Name;
+  int ColorSpace;
+  int MaximumWidth;
+
+  std::string MakeKey() const
+  {
+    return vtkIBLCache::MakeFileKey(
+      this->Name, "environment " + std::to_string(this->ColorSpace) + " " + std::to_string(this->MaximumWidth));
+  }
+};
+
+// A file on its way to light: out of the cache, or read and cleaned, on the caller's thread or on one of its own, which
+// alone has all but Abort until it ends.
+struct vtkIBLEnvironment::Reading
+{
+  File Origin;
+  std::string Key;     // first that of the light that there is
+  bool IsSame = false; // as there is
+  bool IsFound = false;
+  std::string Error;
+  Source Result;
+  std::vector<vtkIBLStatistics::Work> Done;
+
+  // Asked on the thread that reads; false calls it off.
+  using GoOn = std::function<bool(double)>;
+
+  Reading(const File& file, const std::string& key)
+    : Origin(file)
+    , Key(key)
+  {
+  }
+  ~Reading() { this->CallOff(); }
+
+  // Words are the main thread's matter: what goes wrong is in Error.
+  void Run(const GoOn& goOn, const vtkIBLParallelFor* ahead)
+  {
+    try
+    {
+      const vtkIBLStopwatch stopwatch;
+      const std::string key = this->Origin.MakeKey();
+      this->IsSame = !key.empty() && key == this->Key;
+      this->Key = key;
+      if (this->IsSame)
+      {
+        return;
+      }
+      if (std::shared_ptr<const vtkIBLStoredLight> found = vtkIBLCache::Find(key))
+      {
+        const auto bytes = vtkTypeInt64(found->GetNumberOfBytes());
+        this->Result.Light = std::move(found);
+        this->IsFound = true;
+        this->Done.push_back({ vtkIBLStatistics::CacheHit, 1, 0, bytes, stopwatch.GetSeconds() });
+        return;
+      }
+      this->ReadPixels(goOn);
+      if (ahead && this->Result.Light && this->Result.Light->SourceFaces == 1)
+      {
+        this->Analyse(*ahead);
+      }
+    }
+    catch (const vtkIBLAborted&)
+    {
+      this->Result = Source();
+    }
+    catch (const std::exception& error)
+    {
+      this->Result = Source();
+      this->Error = "Cannot make light of '" + this->Origin.Name + "': " + error.what() + ".";
+    }
+  }
+  void RunOnThread()
+  {
+    this->Thread = std::async(std::launch::async,
+      [this]
+      {
+        std::atomic<int> finished{ 0 };
+        const vtkIBLParallelFor ahead = vtkIBLMakeAbortable(vtkIBLRunOnThreads, this->Abort, finished);
+        this->Run([this](double) { return !this->Abort; }, &ahead);
+      });
+  }
+  void CallOff() { this->Abort = true; }
+  bool IsDone() const { return this->Thread.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
+
+  void ReadPixels(const GoOn& goOn)
+  {
+    const vtkIBLStopwatch stopwatch;
+    vtkNew<vtkIBLImageReader> reader;
+    reader->SetFileName(this->Origin.Name.c_str());
+    reader->SetColorSpace(this->Origin.ColorSpace);
+    reader->SetMaximumWidth(this->Origin.MaximumWidth);
+    const auto observe =
+      [](vtkObject* who, unsigned long event, void (*call)(vtkObject*, unsigned long, void*, void*), const void* data)
+    {
+      vtkNew<vtkCallbackCommand> command;
+      command->SetClientData(const_cast<void*>(data));
+      command->SetCallback(call);
+      who->AddObserver(event, command);
+    };
+    observe(
+      reader, vtkCommand::ProgressEvent,
+      [](vtkObject* who, unsigned long, void* go, void* progress)
+      {
+        const bool goes = (*static_cast<const GoOn*>(go))(*static_cast<double*>(progress));
+        static_cast<vtkIBLImageReader*>(who)->SetAbortExecute(!goes);
+      },
+      &goOn);
+    const auto keep = [](vtkObject*, unsigned long, void* error, void* words)
+    {
+      auto& text = *static_cast<std::string*>(error);
+      if (text.empty()) // the executive says once more that it failed
+      {
+        text = static_cast<const char*>(words);
+        text.erase(0, text.find("Cannot read")); // before it: which line of ours says so
+        text.erase(text.find_last_not_of('\n') + 1);
+      }
+    };
+    observe(reader, vtkCommand::ErrorEvent, keep, &this->Error);
+    observe(reader->GetExecutive(), vtkCommand::ErrorEvent, keep, &this->Error);
+    reader->Update();
+    vtkImageData* output = reader->GetOutput();
+    if (reader->GetErrorCode() != 0 || !output || output->GetNumberOfPoints() == 0)
+    {
+      return;
+    }
+    auto radiance = vtkSmartPointer<vtkImageData>::New();
+    radiance->ShallowCopy(output);
+    output->ReleaseData(); // one owner: it is cleaned in place
+    this->Result = Clean(radiance);
+    this->Done.push_back(CountRead(radiance, stopwatch));
+  }
+  void Analyse(const vtkIBLParallelFor& parallelFor)
+  {
+    const vtkIBLStopwatch stopwatch;
+    auto more = std::make_shared<vtkIBLStoredLight>(*this->Result.Light);
+    AddSpectrum(*more, vtkIBLSpectrum(View(this->Result.Radiance), vtkIBLSpectrum::MaximumOrder, parallelFor));
+    this->Done.push_back(CountHarmonics(*more, stopwatch));
+    this->Result.Light = more;
+  }
+
+private:
+  std::atomic<bool> Abort{ false };
+  std::future<void> Thread; // the last member: going, it waits, and all else is still there
+};
+
+vtkIBLEnvironment::vtkIBLEnvironment()
+  : Statistics(vtkSmartPointer<vtkIBLStatistics>::New())
+{
   this->SourceTime.Modified();
 }
 
@@ -80,28 +280,32 @@ void vtkIBLEnvironment::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Intensity: " << this->Intensity << "\n"
      << indent << "Tint: " << this->Tint[0] << " " << this->Tint[1] << " " << this->Tint[2] << "\n"
      << indent << "NormalizeExposure: " << this->NormalizeExposure << "\n"
-     << indent << "MeanLuminance: " << this->MeanLuminance << "\n"
-     << indent << "NumberOfNotFiniteTexels: " << this->NumberOfNotFiniteTexels << "\n"
-     << indent << "NumberOfTooLargeTexels: " << this->NumberOfTooLargeTexels << "\n"
-     << indent << "NumberOfNegativeTexels: " << this->NumberOfNegativeTexels << "\n";
+     << indent << "Asynchronous: " << this->Asynchronous << "\n"
+     << indent << "MeanLuminance: " << this->GetMeanLuminance() << "\n"
+     << indent << "NumberOfNotFiniteTexels: " << this->GetNumberOfNotFiniteTexels() << "\n"
+     << indent << "NumberOfTooLargeTexels: " << this->GetNumberOfTooLargeTexels() << "\n"
+     << indent << "NumberOfNegativeTexels: " << this->GetNumberOfNegativeTexels() << "\n"
+     << indent << "Statistics:\n";
+  this->Statistics->PrintSelf(os, indent.GetNextIndent());
 }
 
 //------------------------------------------------------------------------------
-void vtkIBLEnvironment::SourceModified()
+void vtkIBLEnvironment::Modified()
 {
   this->SourceTime.Modified();
-  this->Modified();
+  this->Superclass::Modified();
 }
 
 void vtkIBLEnvironment::SetSource(const char* fileName, vtkAlgorithm* producer, int port)
 {
   const std::string name = fileName ? fileName : "";
-  if (name != this->FileName || producer != this->Producer || port != this->ProducerPort)
+  const bool isOld = name == this->FileName && producer == this->Producer && port == this->ProducerPort;
+  this->FileName = name;
+  this->Producer = producer;
+  this->ProducerPort = port;
+  if (!isOld || !name.empty()) // a file may have changed
   {
-    this->FileName = name;
-    this->Producer = producer;
-    this->ProducerPort = port;
-    this->SourceModified();
+    this->Modified();
   }
 }
 
@@ -133,30 +337,22 @@ void vtkIBLEnvironment::SetInputData(vtkImageData* image)
 
 void vtkIBLEnvironment::SetColorSpace(int colorSpace)
 {
-  if (colorSpace != this->Reader->GetColorSpace())
+  colorSpace = std::clamp(colorSpace, int(vtkIBLImageReader::ColorSpaceAuto), int(vtkIBLImageReader::ColorSpaceSRGB));
+  if (colorSpace != this->ColorSpace)
   {
-    this->Reader->SetColorSpace(colorSpace);
-    this->SourceModified();
+    this->ColorSpace = colorSpace;
+    this->Modified();
   }
-}
-
-int vtkIBLEnvironment::GetColorSpace() const
-{
-  return this->Reader->GetColorSpace();
 }
 
 void vtkIBLEnvironment::SetMaximumWidth(int width)
 {
-  if (width != this->Reader->GetMaximumWidth())
+  width = std::max(width, 0);
+  if (width != this->MaximumWidth)
   {
-    this->Reader->SetMaximumWidth(width);
-    this->SourceModified();
+    this->MaximumWidth = width;
+    this->Modified();
   }
-}
-
-int vtkIBLEnvironment::GetMaximumWidth() const
-{
-  return this->Reader->GetMaximumWidth();
 }
 
 //------------------------------------------------------------------------------
@@ -174,7 +370,7 @@ bool vtkIBLEnvironment::SetAxis(const char* name, double axis[3], double x, doub
     axis[0] = x;
     axis[1] = y;
     axis[2] = z;
-    this->Modified();
+    this->Superclass::Modified(); // the source is as it was
   }
   return true;
 }
@@ -198,7 +394,7 @@ void vtkIBLEnvironment::SetRotation(double degrees)
   else if (degrees != this->Rotation)
   {
     this->Rotation = degrees;
-    this->Modified();
+    this->Superclass::Modified(); // the source is as it was
   }
 }
 
@@ -211,7 +407,7 @@ void vtkIBLEnvironment::SetIntensity(double intensity)
   else if (intensity != this->Intensity)
   {
     this->Intensity = intensity;
-    this->Modified();
+    this->Superclass::Modified(); // the source is as it was
   }
 }
 
@@ -228,7 +424,7 @@ void vtkIBLEnvironment::SetTint(double red, double green, double blue)
     this->Tint[0] = red;
     this->Tint[1] = green;
     this->Tint[2] = blue;
-    this->Modified();
+    this->Superclass::Modified(); // the source is as it was
   }
 }
 
@@ -237,65 +433,117 @@ void vtkIBLEnvironment::SetNormalizeExposure(bool normalize)
   if (normalize != this->NormalizeExposure)
   {
     this->NormalizeExposure = normalize;
-    this->Modified();
+    this->Superclass::Modified(); // the source is as it was
   }
 }
 
 //------------------------------------------------------------------------------
-bool vtkIBLEnvironment::Update()
+void vtkIBLEnvironment::SetAbortExecute(bool abort)
 {
-  vtkMTimeType sourceTime = this->SourceTime.GetMTime();
+  this->AbortExecute = abort;
+  if (abort && this->Pending)
+  {
+    this->Pending->CallOff();
+  }
+}
+
+// When it last changed.
+vtkMTimeType vtkIBLEnvironment::UpdateSource()
+{
+  vtkMTimeType time = this->SourceTime.GetMTime();
   if (this->Producer)
   {
     this->Producer->Update(this->ProducerPort);
     if (vtkDataObject* output = this->Producer->GetOutputDataObject(this->ProducerPort))
     {
-      sourceTime = std::max(sourceTime, output->GetMTime());
+      time = std::max(time, output->GetMTime());
     }
   }
-  if (sourceTime > this->AttemptTime.GetMTime())
+  return time;
+}
+
+bool vtkIBLEnvironment::Update()
+{
+  if (this->UpdateSource() > this->AttemptTime.GetMTime())
   {
     this->AttemptTime.Modified(); // a source that failed is not read again until it changes
-    vtkSmartPointer<vtkImageData> radiance = this->Load();
-    if (!radiance && !this->Radiance)
+    this->Pending = nullptr;
+    this->AbortExecute = false;
+    if (this->FileName.empty())
     {
-      radiance = MakeStudio();
+      const vtkIBLStopwatch stopwatch;
+      if (const vtkSmartPointer<vtkImageData> radiance = this->Producer ? this->LoadInput() : MakeStudio())
+      {
+        this->TakePixels(radiance, stopwatch);
+      }
     }
-    if (radiance)
+    else
     {
-      this->Adopt(radiance);
+      auto reading = std::make_unique<Reading>(File{ this->FileName, this->ColorSpace, this->MaximumWidth }, this->Key);
+      if (this->Asynchronous)
+      {
+        this->Pending = std::move(reading);
+        this->Pending->RunOnThread();
+      }
+      else
+      {
+        reading->Run(
+          [this](double progress)
+          {
+            this->InvokeEvent(vtkCommand::ProgressEvent, &progress);
+            return !this->AbortExecute;
+          },
+          nullptr);
+        this->Take(*reading);
+      }
     }
   }
-  return this->Radiance != nullptr;
+  if (this->Pending && this->Pending->IsDone())
+  {
+    this->Take(*std::exchange(this->Pending, nullptr));
+  }
+  if (!this->Light && !this->Pending) // nothing good yet
+  {
+    const vtkIBLStopwatch stopwatch;
+    this->TakePixels(MakeStudio(), stopwatch);
+  }
+  return this->Light != nullptr;
 }
 
-vtkSmartPointer<vtkImageData> vtkIBLEnvironment::Load()
+bool vtkIBLEnvironment::IsBusy() const
 {
-  if (this->Producer)
-  {
-    return this->LoadInput();
-  }
-  if (!this->FileName.empty())
-  {
-    return this->LoadFile();
-  }
-  return MakeStudio();
+  return this->Pending && !this->Pending->IsDone();
 }
 
-vtkSmartPointer<vtkImageData> vtkIBLEnvironment::LoadFile()
+void vtkIBLEnvironment::Take(const Reading& reading)
 {
-  this->Reader->SetFileName(this->FileName.c_str());
-  this->Reader->Modified(); // the file may have changed
-  this->Reader->Update();   // reports its own errors
-  vtkImageData* output = this->Reader->GetOutput();
-  if (this->Reader->GetErrorCode() != 0 || !output || output->GetNumberOfPoints() == 0)
+  for (const vtkIBLStatistics::Work& work : reading.Done)
   {
-    return nullptr;
+    this->Statistics->Add(work);
   }
-  auto radiance = vtkSmartPointer<vtkImageData>::New();
-  radiance->ShallowCopy(output);
-  output->ReleaseData(); // one owner: it is cleaned in place
-  return radiance;
+  if (!reading.Error.empty())
+  {
+    vtkErrorMacro(<< reading.Error << " The last good light stays.");
+  }
+  if (reading.IsSame || reading.Result.Light)
+  {
+    this->Origin = std::make_unique<File>(reading.Origin);
+    this->Key = reading.Key;
+  }
+  if (reading.Result.Light)
+  {
+    this->IsKept = reading.IsFound;
+    this->Adopt(reading.Result.Light, reading.Result.Radiance);
+  }
+}
+
+void vtkIBLEnvironment::TakePixels(vtkImageData* radiance, const vtkIBLStopwatch& stopwatch)
+{
+  this->Origin = nullptr;
+  this->Key.clear();
+  this->IsKept = false;
+  this->Adopt(Clean(radiance).Light, radiance);
+  this->Statistics->Add(CountRead(radiance, stopwatch));
 }
 
 vtkSmartPointer<vtkImageData> vtkIBLEnvironment::LoadInput()
@@ -318,7 +566,7 @@ vtkSmartPointer<vtkImageData> vtkIBLEnvironment::LoadInput()
                       << "; an environment is 2n x n x 1 (lat-long) or n x n x 6 (faces). The last good light stays.");
     return nullptr;
   }
-  const int colorSpace = this->GetColorSpace();
+  const int colorSpace = this->ColorSpace;
   const int type = array->GetDataType();
   const bool integer = type == VTK_UNSIGNED_CHAR || type == VTK_UNSIGNED_SHORT;
   const bool decode =
@@ -328,6 +576,11 @@ vtkSmartPointer<vtkImageData> vtkIBLEnvironment::LoadInput()
 
   auto radiance = MakeImage(dimensions[0], dimensions[1], dimensions[2]);
   auto* rgb = static_cast<float*>(radiance->GetScalarPointer());
+  if (auto* floats = vtkFloatArray::SafeDownCast(array); floats && components == 3 && !decode)
+  {
+    std::copy_n(floats->GetPointer(0), floats->GetNumberOfValues(), rgb);
+    return radiance;
+  }
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
   {
     for (int k = 0; k < 3; ++k)
@@ -339,22 +592,23 @@ vtkSmartPointer<vtkImageData> vtkIBLEnvironment::LoadInput()
   return radiance;
 }
 
-void vtkIBLEnvironment::Adopt(vtkImageData* radiance)
+void vtkIBLEnvironment::Adopt(std::shared_ptr<const vtkIBLStoredLight> light, vtkImageData* radiance)
 {
-  vtkIBLRadianceImage view = View(radiance);
-  const vtkIBLRadianceFaults faults = vtkIBLCleanRadiance(view);
+  this->Light = std::move(light);
+  this->Spectrum = nullptr;
   this->Radiance = radiance;
   this->RadianceTime.Modified();
-  this->MeanLuminance = vtkIBLMeanLuminance(view);
-  this->NumberOfNotFiniteTexels = static_cast<vtkIdType>(faults.NotFinite);
-  this->NumberOfTooLargeTexels = static_cast<vtkIdType>(faults.TooLarge);
-  this->NumberOfNegativeTexels = static_cast<vtkIdType>(faults.Negative);
+  this->Report();
+}
 
+void vtkIBLEnvironment::Report()
+{
   // Lossy EXR compression leaves small negatives in most HDRIs: those are counted, and not worth a word each time.
-  const bool faint = faults.MostNegative > -0.1 * this->MeanLuminance;
+  const vtkIBLRadianceFaults& faults = this->Light->Faults;
+  const bool faint = faults.MostNegative > -0.1 * this->Light->MeanLuminance;
   if (faults.NotFinite > 0 || faults.TooLarge > 0 || (faults.Negative > 0 && !faint))
   {
-    vtkWarningMacro("Environment '" << (this->FileName.empty() ? "input" : this->FileName) << "': replaced "
+    vtkWarningMacro("Environment '" << (this->Origin ? this->Origin->Name : "input") << "': replaced "
                                     << faults.NotFinite << " NaN or infinite and " << faults.TooLarge
                                     << " too large texels (above " << vtkIBLLargestRadiance
                                     << ") by the mean of their neighbours, and " << faults.Negative
@@ -362,19 +616,148 @@ void vtkIBLEnvironment::Adopt(vtkImageData* radiance)
   }
 }
 
-vtkImageData* vtkIBLEnvironment::GetRadianceImage() const
+//------------------------------------------------------------------------------
+vtkImageData* vtkIBLEnvironment::GetRadianceImage()
 {
+  try
+  {
+    this->GetRadiance();
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+  }
   return this->Radiance;
 }
 
-vtkIBLRadianceImage vtkIBLEnvironment::GetRadiance() const
+vtkIBLRadianceImage vtkIBLEnvironment::GetRadiance()
 {
+  if (this->Light && !this->Radiance)
+  {
+    // The file may be another by now, or gone.
+    Reading reading(*this->Origin, std::string());
+    if (this->Origin->MakeKey() == this->Key)
+    {
+      reading.ReadPixels([](double) { return true; });
+    }
+    if (!reading.Result.Radiance)
+    {
+      throw std::runtime_error("The light of '" + this->Origin->Name +
+        "' came out of the cache; now its pixels are needed, and the file is gone, or is another one. What was made of "
+        "it stays. Call SetFileName() again, with a file that is there.");
+    }
+    this->Radiance = reading.Result.Radiance;
+    this->Statistics->Add(reading.Done.front());
+  }
   return View(this->Radiance);
 }
 
 vtkMTimeType vtkIBLEnvironment::GetRadianceTime() const
 {
   return this->RadianceTime.GetMTime();
+}
+
+int vtkIBLEnvironment::GetNumberOfFaces() const
+{
+  return this->Light ? this->Light->SourceFaces : 0;
+}
+
+int vtkIBLEnvironment::GetWidth() const
+{
+  return this->Light ? this->Light->SourceWidth : 0;
+}
+
+int vtkIBLEnvironment::GetHeight() const
+{
+  return this->Light ? this->Light->SourceHeight : 0;
+}
+
+vtkIdType vtkIBLEnvironment::GetNumberOfTexels() const
+{
+  return vtkIdType(this->GetNumberOfFaces()) * this->GetWidth() * this->GetHeight();
+}
+
+vtkIBLStatistics* vtkIBLEnvironment::GetStatistics() const
+{
+  return this->Statistics;
+}
+
+double vtkIBLEnvironment::GetMeanLuminance() const
+{
+  return this->Light ? this->Light->MeanLuminance : 0.0;
+}
+
+vtkIdType vtkIBLEnvironment::GetNumberOfNotFiniteTexels() const
+{
+  return this->Light ? static_cast<vtkIdType>(this->Light->Faults.NotFinite) : 0;
+}
+
+vtkIdType vtkIBLEnvironment::GetNumberOfTooLargeTexels() const
+{
+  return this->Light ? static_cast<vtkIdType>(this->Light->Faults.TooLarge) : 0;
+}
+
+vtkIdType vtkIBLEnvironment::GetNumberOfNegativeTexels() const
+{
+  return this->Light ? static_cast<vtkIdType>(this->Light->Faults.Negative) : 0;
+}
+
+//------------------------------------------------------------------------------
+// To add a part to. What is kept may be read by the cache's threads at this moment, so then it is a copy.
+vtkIBLStoredLight& vtkIBLEnvironment::GetOwnLight()
+{
+  if (std::exchange(this->IsKept, false))
+  {
+    this->Light = std::make_shared<vtkIBLStoredLight>(*this->Light);
+  }
+  return const_cast<vtkIBLStoredLight&>(*this->Light);
+}
+
+std::shared_ptr<const vtkIBLSpectrum> vtkIBLEnvironment::GetSpectrum(int order)
+{
+  if (this->Light->SpectrumOrder < order)
+  {
+    const vtkIBLRadianceImage radiance = this->GetRadiance();
+    const vtkIBLStopwatch stopwatch;
+    this->Spectrum = std::make_shared<vtkIBLSpectrum>(radiance, order, vtkIBLRunOnThreads);
+    AddSpectrum(this->GetOwnLight(), *this->Spectrum);
+    this->Statistics->Add(CountHarmonics(*this->Light, stopwatch));
+  }
+  else if (!this->Spectrum)
+  {
+    this->Spectrum = std::make_shared<vtkIBLSpectrum>(
+      this->Light->SpectrumOrder, this->Light->Coefficients, this->Light->BrightTexels);
+  }
+  return this->Spectrum;
+}
+
+const float* vtkIBLEnvironment::GetCube(int faceSize)
+{
+  if (this->Light->CubeFaceSize != faceSize)
+  {
+    const vtkIBLRadianceImage radiance = this->GetRadiance();
+    const vtkIBLStopwatch stopwatch;
+    std::vector<float> cube(vtkIBLStoredLight::GetCubeLength(faceSize));
+    vtkIBLConvertToCube(radiance, faceSize, cube.data(), vtkIBLRunOnThreads);
+    vtkIBLStoredLight& light = this->GetOwnLight();
+    light.CubeFaceSize = faceSize;
+    light.Cube = std::move(cube);
+    this->Statistics->Add({ vtkIBLStatistics::CubeFaces, 1, vtkTypeInt64(light.Cube.size() / 3),
+      vtkTypeInt64(light.Cube.size() * sizeof(float)), stopwatch.GetSeconds() });
+  }
+  return this->Light->Cube.data();
+}
+
+void vtkIBLEnvironment::KeepLight()
+{
+  if (this->Light && !this->IsKept && !this->Key.empty() && vtkIBLCache::GetEnabled())
+  {
+    // Writing takes longer than lighting: it goes on beside the frames.
+    this->Keeping =
+      std::async(std::launch::async, [key = this->Key, light = this->Light] { vtkIBLCache::Store(key, light); });
+    this->Statistics->Add({ vtkIBLStatistics::CacheWrite, 1, 0, vtkTypeInt64(this->Light->GetNumberOfBytes()) });
+    this->IsKept = true;
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -408,7 +791,8 @@ void vtkIBLEnvironment::GetEnvironmentFromWorld(double rows[9]) const
 
 void vtkIBLEnvironment::GetRadianceScale(double rgb[3]) const
 {
-  const double exposure = this->NormalizeExposure && this->MeanLuminance > 0.0 ? 1.0 / this->MeanLuminance : 1.0;
+  const double exposure =
+    this->NormalizeExposure && this->GetMeanLuminance() > 0.0 ? 1.0 / this->GetMeanLuminance() : 1.0;
   for (int k = 0; k < 3; ++k)
   {
     rgb[k] = exposure * this->Intensity * this->Tint[k];

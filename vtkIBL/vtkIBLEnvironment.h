@@ -18,17 +18,21 @@
 #define vtkIBLEnvironment_h
 
 #include "vtkIBLModule.h" // For export macro
-#include "vtkNew.h"
 #include "vtkObject.h"
 #include "vtkSmartPointer.h"
 
+#include <future> // For std::future
+#include <memory> // For std::shared_ptr
 #include <string> // For std::string
 
 class vtkAlgorithm;
 class vtkAlgorithmOutput;
-class vtkIBLImageReader;
+class vtkIBLStatistics;
+class vtkIBLStopwatch;
 class vtkImageData;
+class vtkIBLSpectrum;
 struct vtkIBLRadianceImage;
+struct vtkIBLStoredLight;
 
 class VTKIBL_EXPORT vtkIBLEnvironment : public vtkObject
 {
@@ -40,10 +44,12 @@ public:
   ///@{
   /**
    * The image file to read: any that OpenImageIO reads (.exr .hdr .tif .png .jpg …), lat-long or a cube layout, see
-   * vtkIBLImageReader. Setting a file name drops an input connection. Null or empty, the default: no file.
+   * vtkIBLImageReader. Setting a file name drops an input connection. Setting the same again, or Modified(), looks
+   * whether the file is another by now. Null or empty, the default: no file.
    */
   void SetFileName(const char* fileName);
   const char* GetFileName() const;
+  void Modified() override;
   ///@}
 
   ///@{
@@ -62,15 +68,16 @@ public:
    * out and too bright.
    */
   void SetColorSpace(int colorSpace);
-  int GetColorSpace() const;
+  vtkGetMacro(ColorSpace, int);
   ///@}
 
   ///@{
   /**
-   * A wider file is box-reduced to this width while it is read. Default 4096, enough for a background at 4k; 0: never.
+   * A wider file is box-reduced to this width while it is read. Default 4096, enough for a background at 4k; 0, and
+   * below: never.
    */
   void SetMaximumWidth(int width);
-  int GetMaximumWidth() const;
+  vtkGetMacro(MaximumWidth, int);
   ///@}
 
   ///@{
@@ -113,29 +120,83 @@ public:
   vtkBooleanMacro(NormalizeExposure, bool);
   ///@}
 
+  ///@{
   /**
-   * Reads and cleans the source if it changed. Returns whether there is light; false only when memory ran out.
+   * Read a file on a thread of its own, and make there what lighting with it takes: Update() returns at once, frames go
+   * on with the last light, or without any when there is none yet, and a later Update() takes the new one. IsBusy()
+   * tells whether one is under way; a viewer renders again when it no longer is. Default off: Update() waits.
+   */
+  void SetAsynchronous(bool asynchronous) { this->Asynchronous = asynchronous; }
+  vtkGetMacro(Asynchronous, bool);
+  vtkBooleanMacro(Asynchronous, bool);
+  bool IsBusy() const;
+  ///@}
+
+  ///@{
+  /**
+   * Set from an observer of this object's ProgressEvent, which reading a file sends (call data: double in [0, 1]), or
+   * while one is read on a thread, which sends none, it calls the reading off: the last good light stays, until the
+   * source is changed or set again. It is cleared when a reading begins.
+   */
+  void SetAbortExecute(bool abort);
+  vtkGetMacro(AbortExecute, bool);
+  ///@}
+
+  /**
+   * Brings the light up to date if the source changed: out of the cache, see vtkIBLCache, or by reading and cleaning
+   * it. Returns whether there is light; false when memory ran out, or while the first is read on a thread.
    */
   bool Update();
 
   ///@{
   /**
    * The light as of the last Update(): linear, finite, non-negative float RGB, W x H x 1 or n x n x 6. Not to be
-   * changed.
+   * changed. A source that came out of the cache is read when this is first called; null, with an error, when that
+   * can't be done any more. And when the light last changed.
    */
-  vtkImageData* GetRadianceImage() const;
-  vtkIBLRadianceImage GetRadiance() const;
+  vtkImageData* GetRadianceImage();
   vtkMTimeType GetRadianceTime() const;
   ///@}
 
   ///@{
   /**
+   * What the image of the last Update() is, be it read or out of the cache: width and height of a lat-long image (1
+   * face) or of one of 6 faces.
+   */
+  int GetNumberOfFaces() const;
+  int GetWidth() const;
+  int GetHeight() const;
+  vtkIdType GetNumberOfTexels() const;
+  ///@}
+
+#ifndef __VTK_WRAP__
+  ///@{
+  /**
+   * For the stages: radiance, harmonics of a lat-long environment, of at least that order, and the radiance cube's
+   * faces (6 x n x n x 3, GL's order; good until the next call). Made when first asked for, kept while the light stays,
+   * shared by all windows, and put in the cache by KeepLight(). Each throws std::runtime_error when pixels are needed
+   * that can't be read any more.
+   */
+  vtkIBLRadianceImage GetRadiance();
+  std::shared_ptr<const vtkIBLSpectrum> GetSpectrum(int order);
+  const float* GetCube(int faceSize);
+  void KeepLight();
+  ///@}
+#endif
+
+  /**
+   * What was read, found in the cache, analysed and turned into faces, for all who share this environment.
+   */
+  vtkIBLStatistics* GetStatistics() const;
+
+  ///@{
+  /**
    * What the last Update() found: mean luminance (Rec. 709) over the sphere, and texels that it cleaned.
    */
-  vtkGetMacro(MeanLuminance, double);
-  vtkGetMacro(NumberOfNotFiniteTexels, vtkIdType);
-  vtkGetMacro(NumberOfTooLargeTexels, vtkIdType);
-  vtkGetMacro(NumberOfNegativeTexels, vtkIdType);
+  double GetMeanLuminance() const;
+  vtkIdType GetNumberOfNotFiniteTexels() const;
+  vtkIdType GetNumberOfTooLargeTexels() const;
+  vtkIdType GetNumberOfNegativeTexels() const;
   ///@}
 
   /**
@@ -157,17 +218,22 @@ private:
   void operator=(const vtkIBLEnvironment&) = delete;
 
   void SetSource(const char* fileName, vtkAlgorithm* producer, int port);
-  void SourceModified();
-  vtkSmartPointer<vtkImageData> Load();
-  vtkSmartPointer<vtkImageData> LoadFile();
+  struct File;
+  struct Reading;
+  vtkMTimeType UpdateSource();
   vtkSmartPointer<vtkImageData> LoadInput();
-  void Adopt(vtkImageData* radiance);
+  void Take(const Reading& reading);
+  void TakePixels(vtkImageData* radiance, const vtkIBLStopwatch& stopwatch);
+  void Adopt(std::shared_ptr<const vtkIBLStoredLight> light, vtkImageData* radiance);
+  vtkIBLStoredLight& GetOwnLight();
+  void Report();
   bool SetAxis(const char* name, double axis[3], double x, double y, double z);
 
   std::string FileName;
   vtkSmartPointer<vtkAlgorithm> Producer;
   int ProducerPort = 0;
-  vtkNew<vtkIBLImageReader> Reader;
+  int ColorSpace = 0; // vtkIBLImageReader::ColorSpaceAuto
+  int MaximumWidth = 4096;
   vtkTimeStamp SourceTime;
   vtkTimeStamp AttemptTime;
 
@@ -178,12 +244,19 @@ private:
   double Tint[3] = { 1.0, 1.0, 1.0 };
   bool NormalizeExposure = false;
 
-  vtkSmartPointer<vtkImageData> Radiance;
+  bool Asynchronous = false;
+  bool AbortExecute = false;
+
+  std::unique_ptr<Reading> Pending;               // on a thread
+  std::future<void> Keeping;                      // a write to the cache
+  std::unique_ptr<File> Origin;                   // of the light; null: not a file
+  std::string Key;                                // of the light in the cache; empty: not a file's
+  bool IsKept = false;                            // the cache has all of it, and so nobody may write to it
+  std::shared_ptr<const vtkIBLStoredLight> Light; // all that is known of it but its pixels
+  std::shared_ptr<const vtkIBLSpectrum> Spectrum; // that of Light, once asked for
+  vtkSmartPointer<vtkImageData> Radiance;         // null: not read, as Light came out of the cache
   vtkTimeStamp RadianceTime;
-  double MeanLuminance = 0.0;
-  vtkIdType NumberOfNotFiniteTexels = 0;
-  vtkIdType NumberOfTooLargeTexels = 0;
-  vtkIdType NumberOfNegativeTexels = 0;
+  vtkSmartPointer<vtkIBLStatistics> Statistics;
 };
 
 #endif

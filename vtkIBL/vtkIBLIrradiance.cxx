@@ -142,19 +142,23 @@ bool vtkIBLIrradiance::UpdateInput(vtkOpenGLRenderWindow*, vtkMTimeType& inputTi
   return true;
 }
 
-vtkTypeInt64 vtkIBLIrradiance::Build(vtkOpenGLRenderWindow*)
+vtkIBLStatistics* vtkIBLIrradiance::GetInputStatistics() const
 {
-  const vtkIBLRadianceImage radiance = this->Environment->GetRadiance();
+  return this->Environment->GetStatistics();
+}
+
+std::vector<vtkIBLStatistics::Work> vtkIBLIrradiance::Build(vtkOpenGLRenderWindow*)
+{
   Internals made;
-  if (radiance.Faces == 6)
+  if (this->Environment->GetNumberOfFaces() == 6)
   {
-    made.Harmonics = vtkIBLMakeHarmonics(radiance, this->Order, vtkIBLRunOnThreads);
+    made.Harmonics = vtkIBLMakeHarmonics(this->Environment->GetRadiance(), this->Order, vtkIBLRunOnThreads);
   }
   else
   {
-    const vtkIBLSpectrum spectrum(radiance, this->Order, vtkIBLRunOnThreads);
-    made.Harmonics = vtkIBLMakeHarmonics(spectrum, this->Order);
-    made.BrightTexels = spectrum.GetBrightTexels();
+    const std::shared_ptr<const vtkIBLSpectrum> spectrum = this->Environment->GetSpectrum(this->Order);
+    made.Harmonics = vtkIBLMakeHarmonics(*spectrum, this->Order);
+    made.BrightTexels = spectrum->GetBrightTexels();
     if (!this->KeepBrightTexels)
     {
       vtkIBLAddBrightTexels(made.BrightTexels, made.Harmonics);
@@ -162,7 +166,8 @@ vtkTypeInt64 vtkIBLIrradiance::Build(vtkOpenGLRenderWindow*)
     }
   }
   *this->Internal = std::move(made);
-  return vtkTypeInt64(radiance.GetNumberOfTexels());
+  const auto texels = vtkTypeInt64(this->Environment->GetNumberOfTexels());
+  return { { vtkIBLStatistics::IrradianceCoefficients, 1, texels, 24 * this->GetNumberOfCoefficients() } };
 }
 
 void vtkIBLIrradiance::Release() {}

@@ -6,9 +6,9 @@
 #include "vtkIBLCubeMap.h"
 #include "vtkIBLEnvironment.h"
 #include "vtkIBLGL.h"
-#include "vtkIBLIrradiance.h"
 #include "vtkIBLShaderSource.h"
 #include "vtkIBLSpecularChain.h"
+#include "vtkIBLStatistics.h"
 
 #include "vtkCamera.h"
 #include "vtkMath.h"
@@ -21,25 +21,35 @@
 
 vtkStandardNewMacro(vtkIBLLighting);
 
+// All samplers get a texture: a cube map that nobody needs, and nobody made, is stood in for by one that is there.
 struct vtkIBLLighting::Bindings
 {
   Bindings(vtkOpenGLRenderWindow* window, const vtkIBLCubeMap& cubeMap, const vtkIBLSpecularChain& chain,
     const vtkIBLBRDFTable& table)
-    : Radiance(window, cubeMap.GetTexture())
-    , EvenLayers(window, chain.GetEvenLayers())
-    , OddLayers(window, chain.GetOddLayers())
+    : Radiance(window, Choose(cubeMap.GetTexture(), chain.GetOddLayers()))
+    , OddLayers(window, Choose(chain.GetOddLayers(), cubeMap.GetTexture()))
+    , EvenLayers(window, Choose(chain.GetEvenLayers(), cubeMap.GetTexture()))
+    , Irradiance(window, Choose(chain.GetIrradianceMap(), cubeMap.GetTexture()))
     , Table(window, table.GetTexture())
   {
   }
+  static const vtkIBLGL::Texture& Choose(const vtkIBLGL::Texture& first, const vtkIBLGL::Texture& second)
+  {
+    return first ? first : second;
+  }
   vtkIBLGL::BoundTexture Radiance;
-  vtkIBLGL::BoundTexture EvenLayers;
   vtkIBLGL::BoundTexture OddLayers;
+  vtkIBLGL::BoundTexture EvenLayers;
+  vtkIBLGL::BoundTexture Irradiance;
   vtkIBLGL::BoundTexture Table;
 };
 
 vtkIBLLighting::vtkIBLLighting()
 {
   this->SpecularChain->SetCubeMap(this->CubeMap);
+  this->CubeMap->SetStatistics(this->Statistics);
+  this->SpecularChain->SetStatistics(this->Statistics);
+  this->BRDFTable->SetStatistics(this->Statistics);
   this->SetEnvironment(nullptr);
 }
 
@@ -49,19 +59,20 @@ void vtkIBLLighting::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "EnergyCompensation: " << this->EnergyCompensation << "\n";
-  for (vtkIBLStage* stage : { static_cast<vtkIBLStage*>(this->CubeMap), static_cast<vtkIBLStage*>(this->Irradiance),
-         static_cast<vtkIBLStage*>(this->SpecularChain), static_cast<vtkIBLStage*>(this->BRDFTable) })
+  for (vtkIBLStage* stage : { static_cast<vtkIBLStage*>(this->CubeMap), static_cast<vtkIBLStage*>(this->SpecularChain),
+         static_cast<vtkIBLStage*>(this->BRDFTable) })
   {
     os << indent << stage->GetClassName() << ":\n";
     stage->PrintSelf(os, indent.GetNextIndent());
   }
+  os << indent << "Statistics:\n";
+  this->Statistics->PrintSelf(os, indent.GetNextIndent());
 }
 
 void vtkIBLLighting::SetEnvironment(vtkIBLEnvironment* environment)
 {
   vtkNew<vtkIBLEnvironment> studio;
   this->CubeMap->SetEnvironment(environment ? environment : studio);
-  this->Irradiance->SetEnvironment(this->CubeMap->GetEnvironment());
   this->Modified();
 }
 
@@ -75,11 +86,6 @@ vtkIBLCubeMap* vtkIBLLighting::GetCubeMap() const
   return this->CubeMap;
 }
 
-vtkIBLIrradiance* vtkIBLLighting::GetIrradiance() const
-{
-  return this->Irradiance;
-}
-
 vtkIBLSpecularChain* vtkIBLLighting::GetSpecularChain() const
 {
   return this->SpecularChain;
@@ -88,6 +94,11 @@ vtkIBLSpecularChain* vtkIBLLighting::GetSpecularChain() const
 vtkIBLBRDFTable* vtkIBLLighting::GetBRDFTable() const
 {
   return this->BRDFTable;
+}
+
+vtkIBLStatistics* vtkIBLLighting::GetStatistics() const
+{
+  return this->Statistics;
 }
 
 void vtkIBLLighting::SetSamplesPerPixel(int samples)
@@ -106,14 +117,54 @@ void vtkIBLLighting::SetSamplesPerPixel(int samples)
 
 bool vtkIBLLighting::Update(vtkOpenGLRenderWindow* window)
 {
-  return this->BRDFTable->Update(window) && this->Irradiance->Update(window) && this->SpecularChain->Update(window);
+  return this->Update(window, vtkIBLSceneNeeds::Everything());
+}
+
+bool vtkIBLLighting::Update(vtkOpenGLRenderWindow* window, const vtkIBLSceneNeeds& needs)
+{
+  const vtkIBLStatistics& source = *this->GetEnvironment()->GetStatistics();
+  const vtkIBLStatistics::Works before = source.GetWorks();
+  const bool ready = this->UpdateStages(window, needs);
+  this->Statistics->AddDifference(source.GetWorks(), before);
+  return ready;
+}
+
+bool vtkIBLLighting::UpdateStages(vtkOpenGLRenderWindow* window, const vtkIBLSceneNeeds& needs)
+{
+  vtkIBLEnvironment* environment = this->GetEnvironment();
+  if (!environment->Update())
+  {
+    return false;
+  }
+  // What was made stays, for whoever comes back into view; a new light begins anew.
+  if (environment->GetRadianceTime() != this->NeedsTime)
+  {
+    this->NeedsTime = environment->GetRadianceTime();
+    this->Needs = vtkIBLSceneNeeds();
+  }
+  this->Needs.Add(needs);
+  const bool sampled = this->SamplesPerPixel > 0;
+  this->SpecularChain->SetNeededRoughness(this->Needs.MinimumRoughness, this->Needs.MaximumRoughness);
+  this->SpecularChain->SetIrradianceNeeded(this->Needs.Irradiance);
+  this->CubeMap->SetMipLevelsNeeded(sampled || this->SpecularChain->GetEngine() == vtkIBLSpecularChain::Sampled ||
+    environment->GetNumberOfFaces() == 6);
+  bool ready = this->BRDFTable->Update(window);
+  if (sampled || this->Needs.MinimumRoughness < vtkIBLSpecularChain::GetFirstRoughness())
+  {
+    ready = this->CubeMap->Update(window) && ready;
+  }
+  if (!sampled && (this->Needs.Irradiance || this->Needs.MaximumRoughness > 0.0))
+  {
+    ready = this->SpecularChain->Update(window) && ready;
+  }
+  environment->KeepLight();
+  return ready;
 }
 
 void vtkIBLLighting::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Deactivate();
   this->SpecularChain->ReleaseGraphicsResources(window);
-  this->Irradiance->ReleaseGraphicsResources(window);
   this->BRDFTable->ReleaseGraphicsResources(window);
   this->CubeMap->ReleaseGraphicsResources(window);
 }
@@ -152,6 +203,15 @@ void vtkIBLLighting::GetEnvironmentFromView(vtkRenderer* renderer, float rows[9]
   }
 }
 
+void vtkIBLLighting::SetLayerParameters(const vtkIBLGL::Program& program) const
+{
+  program.Set("iblRadiance", this->Bound->Radiance.GetUnit());
+  program.Set("iblOddLayers", this->Bound->OddLayers.GetUnit());
+  program.Set("iblEvenLayers", this->Bound->EvenLayers.GetUnit());
+  program.Set("iblLayers", float(this->SpecularChain->GetNumberOfLayers()));
+  program.Set("iblStoredScale", float(this->SpecularChain->GetStoredScale()));
+}
+
 void vtkIBLLighting::SetShaderParameters(vtkShaderProgram* program, vtkRenderer* renderer)
 {
   // Layers are stored divided by a scale, the cube map as it is.
@@ -164,18 +224,12 @@ void vtkIBLLighting::SetShaderParameters(vtkShaderProgram* program, vtkRenderer*
   }
   else
   {
-    program->SetUniformi("iblEvenLayers", this->Bound->EvenLayers.GetUnit());
+    program->SetUniformi("iblRadiance", this->Bound->Radiance.GetUnit());
     program->SetUniformi("iblOddLayers", this->Bound->OddLayers.GetUnit());
-    float irradiance[7][4];
-    this->Irradiance->GetPacked(irradiance);
-    for (auto& vector : irradiance)
-    {
-      for (float& x : vector)
-      {
-        x = static_cast<float>(x / stored);
-      }
-    }
-    program->SetUniform4fv("iblIrradiance", 7, irradiance);
+    program->SetUniformi("iblEvenLayers", this->Bound->EvenLayers.GetUnit());
+    program->SetUniformi("iblIrradiance", this->Bound->Irradiance.GetUnit());
+    program->SetUniformf("iblLayers", float(this->SpecularChain->GetNumberOfLayers()));
+    program->SetUniformf("iblStoredScale", float(stored));
   }
 
   float rows[9];

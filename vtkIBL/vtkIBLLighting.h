@@ -4,13 +4,14 @@
  * @class vtkIBLLighting
  * @brief an environment's light, ready for shading: the stages of the pipeline and how a shader reads them
  *
- * Owns one cube map, irradiance, specular chain and BRDF table, brings them up to date for a window, and hands them to
+ * Owns one cube map, specular chain and BRDF table, brings them up to date for a window, and hands them to
  * shader programs. What the stages cost can be read from them.
  */
 #ifndef vtkIBLLighting_h
 #define vtkIBLLighting_h
 
 #include "vtkIBLModule.h" // For export macro
+#include "vtkIBLSceneNeeds.h"
 #include "vtkNew.h"
 #include "vtkObject.h"
 
@@ -20,12 +21,16 @@
 class vtkIBLBRDFTable;
 class vtkIBLCubeMap;
 class vtkIBLEnvironment;
-class vtkIBLIrradiance;
 class vtkIBLSpecularChain;
+class vtkIBLStatistics;
 class vtkOpenGLRenderWindow;
 class vtkRenderer;
 class vtkShaderProgram;
 class vtkWindow;
+namespace vtkIBLGL
+{
+class Program;
+}
 
 class VTKIBL_EXPORT vtkIBLLighting : public vtkObject
 {
@@ -47,10 +52,15 @@ public:
    * The stages, to set them up or to read what they made.
    */
   vtkIBLCubeMap* GetCubeMap() const;
-  vtkIBLIrradiance* GetIrradiance() const;
   vtkIBLSpecularChain* GetSpecularChain() const;
   vtkIBLBRDFTable* GetBRDFTable() const;
   ///@}
+
+  /**
+   * What Update() did so far: in these stages and, for them, in the environment. What others made that environment do
+   * is in its own statistics.
+   */
+  vtkIBLStatistics* GetStatistics() const;
 
   ///@{
   /**
@@ -73,10 +83,14 @@ public:
   vtkGetMacro(SamplesPerPixel, int);
   ///@}
 
+  ///@{
   /**
-   * Brings all stages up to date in `window`. Returns whether there is light to shade with, be it an older one.
+   * Brings up to date in `window` what a scene needs, by default everything. Returns whether there is light to shade
+   * with, be it an older one. Needs add up while the light stays the same.
    */
   bool Update(vtkOpenGLRenderWindow* window);
+  bool Update(vtkOpenGLRenderWindow* window, const vtkIBLSceneNeeds& needs);
+  ///@}
 
   ///@{
   /**
@@ -86,6 +100,7 @@ public:
   void Activate(vtkOpenGLRenderWindow* window);
   void Deactivate();
   void SetShaderParameters(vtkShaderProgram* program, vtkRenderer* renderer);
+  void SetLayerParameters(const vtkIBLGL::Program& program) const; // what vtkIBLLayers.glsl takes
   ///@}
 
   ///@{
@@ -119,15 +134,19 @@ private:
   vtkIBLLighting(const vtkIBLLighting&) = delete;
   void operator=(const vtkIBLLighting&) = delete;
 
+  bool UpdateStages(vtkOpenGLRenderWindow* window, const vtkIBLSceneNeeds& needs);
+
   struct Bindings;
   std::unique_ptr<Bindings> Bound;
+  vtkNew<vtkIBLStatistics> Statistics;
   vtkNew<vtkIBLCubeMap> CubeMap;
-  vtkNew<vtkIBLIrradiance> Irradiance;
   vtkNew<vtkIBLSpecularChain> SpecularChain;
   vtkNew<vtkIBLBRDFTable> BRDFTable;
   bool EnergyCompensation = true;
   int SamplesPerPixel = 0;
   vtkTimeStamp ShaderTime;
+  vtkIBLSceneNeeds Needs; // since the light is what it is
+  vtkMTimeType NeedsTime = 0;
 };
 
 #endif

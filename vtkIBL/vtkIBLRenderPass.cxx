@@ -184,8 +184,18 @@ void vtkIBLRenderPass::Render(const vtkRenderState* state)
   this->NumberOfRenderedProps = 0;
   vtkRenderer* renderer = state->GetRenderer();
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  vtkIBLSceneNeeds needs = vtkIBLSceneNeeds::Of(state->GetPropArray(), state->GetPropArrayCount());
+  if (this->BackgroundVisible)
+  {
+    needs.AddRoughness(this->BackgroundBlur, this->BackgroundBlur);
+  }
+  if (needs.IsNothing())
+  {
+    this->RenderScene(state);
+    return;
+  }
   // A selection never waits for light, but keeps the shaders that the last frame had.
-  const bool lit = window && (renderer->GetSelector() ? this->Lit : this->Lighting->Update(window));
+  const bool lit = window && (renderer->GetSelector() ? this->Lit : this->Lighting->Update(window, needs));
   if (lit != this->Lit)
   {
     this->Lit = lit;

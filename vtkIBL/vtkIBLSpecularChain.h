@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkIBLSpecularChain
- * @brief mirror to matt: the environment seen through GGX lobes, one layer a roughness
+ * @brief smooth to matt: the environment seen through GGX lobes, one layer a roughness, and its irradiance
  *
  * Layer i holds, for every direction R, the mean of radiance under the GGX lobe of GetPerceptualRoughness(i) around N =
- * V = R, weighted by N.L (Karis 2013). Layers alternate between two RGBA16F cube maps of equal size, so that each mip
- * level of each holds one layer, and shading reads any roughness with two bilinear fetches. Values are radiance divided
- * by the environment's mean luminance, at most 65504.
+ * V = R, weighted by N.L (Karis 2013). Layer 0 is the mirror: the radiance cube map, not this stage's. Odd layers are
+ * the mip levels of one RGBA16F cube map, even ones those of another, half as large, so that shading reads any
+ * roughness with two bilinear fetches. The irradiance map is the lobe of roughness 1, the clamped cosine, once more,
+ * finer: irradiance over pi. Values are radiance divided by the environment's mean luminance, at most 65504.
+ *
+ * Texels of the spectral engine are not samples but what comes closest when it is read bilinearly, and mixed between
+ * layers: see SetFitReading().
  */
 #ifndef vtkIBLSpecularChain_h
 #define vtkIBLSpecularChain_h
@@ -16,8 +20,11 @@
 #include "vtkSmartPointer.h"
 
 #include <memory> // For std::unique_ptr
+#include <vector> // For std::vector
 
 class vtkIBLCubeMap;
+class vtkIBLEnvironment;
+class vtkIBLSpectrum;
 class vtkImageData;
 namespace vtkIBLGL
 {
@@ -33,7 +40,7 @@ public:
 
   ///@{
   /**
-   * The stage to the left.
+   * The stage to the left. The spectral engine takes the light from its environment, and leaves the cube map alone.
    */
   void SetCubeMap(vtkIBLCubeMap* cubeMap);
   vtkIBLCubeMap* GetCubeMap() const;
@@ -41,13 +48,13 @@ public:
 
   enum Engines
   {
-    Sampled, ///< filtered importance sampling of the cube map, on the GPU: for any source
-    Spectral ///< spherical harmonics and bright texels, on the CPU: for lat-long images, and exact to 1e-4
+    Sampled, ///< sums and samples of the cube map, on the GPU: for any source
+    Spectral ///< spherical harmonics and bright texels, on the CPU: for lat-long images, exact to 2e-4 from roughness
+             ///< 0.12 up and to 2e-3 at 0.1
   };
   ///@{
   /**
-   * What makes the layers. Spectral makes those from roughness 0.17 up, and needs a lat-long environment; sharper
-   * layers, and all of a cube environment's, are sampled either way. Default Spectral.
+   * What makes the layers. A cube environment is sampled either way. Default Spectral.
    */
   vtkSetClampMacro(Engine, int, Sampled, Spectral);
   vtkGetMacro(Engine, int);
@@ -55,8 +62,29 @@ public:
 
   ///@{
   /**
-   * Samples a texel at roughness 1, in [16, 65536]; sharper layers take fewer, as their lobes are narrower. Default
-   * 512. Too few shows as blotches near bright lights; more costs time in proportion.
+   * How far what a shader reads may be from the lobe's integral: relative L1 error over all directions, at the worst
+   * roughness from 0.1 up, in [0.002, 0.5]. Default 0.02. It chooses the ladder's FaceSize and with it the number of
+   * layers: 10 at 256. Too large shows as reflections that sharpen and blur again while roughness grows, and as texels
+   * in sharp highlights; small costs time and memory: four times of both for half the error.
+   */
+  vtkSetClampMacro(ErrorTolerance, double, 0.002, 0.5);
+  vtkGetMacro(ErrorTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Texels along a face's edge of layer 1, rounded down to a power of two in [16, 1024]; 0, the default: what
+   * ErrorTolerance asks for. Each further pair of layers has half of it, down to 8.
+   */
+  vtkSetClampMacro(FaceSize, int, 0, 1024);
+  vtkGetMacro(FaceSize, int);
+  ///@}
+
+  ///@{
+  /**
+   * Samples a texel of the sharp layers, below roughness 0.4, that the sampled engine makes; in [16, 65536]. Default
+   * 64: their mean relative error is 2 % on real HDRIs. Too few shows as blotches near bright lights; more costs time
+   * in proportion.
    */
   vtkSetClampMacro(NumberOfSamples, int, 16, 65536);
   vtkGetMacro(NumberOfSamples, int);
@@ -64,30 +92,73 @@ public:
 
   ///@{
   /**
-   * Texels along a face's edge of the sharpest layer, rounded down to a power of two in [256, 2048]; the roughest has a
-   * sixteenth. Default 256. Larger sharpens mirrors.
+   * The spectral engine stores what, read bilinearly and mixed between two layers, lies closest to the light in the
+   * mean: it halves the error of reading. Off: texels are the filtered light at their centres, as an export wants them.
+   * Default on.
    */
-  vtkSetClampMacro(FaceSize, int, 256, 2048);
-  vtkGetMacro(FaceSize, int);
+  vtkSetMacro(FitReading, bool);
+  vtkGetMacro(FitReading, bool);
+  vtkBooleanMacro(FitReading, bool);
   ///@}
 
   ///@{
   /**
-   * The ladder: how many layers, which perceptualRoughness a layer is made for, and its face size after the last build.
+   * The roughness that will be read, in [0, 1]; a minimum above the maximum: none. Layers outside are not made; when
+   * the range grows, those that are missing are added. Default [0, 1]. And whether the irradiance map will be. Default
+   * on.
    */
-  static int GetNumberOfLayers();
-  static double GetPerceptualRoughness(int layer);
+  void SetNeededRoughness(double minimum, double maximum);
+  vtkGetVector2Macro(NeededRoughness, double);
+  vtkSetMacro(IrradianceNeeded, bool);
+  vtkGetMacro(IrradianceNeeded, bool);
+  vtkBooleanMacro(IrradianceNeeded, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The ladder after the last build: number of layers without the mirror, which perceptualRoughness a layer in [0,
+   * GetNumberOfLayers()] is made for, its face size, and whether it is there.
+   */
+  int GetNumberOfLayers() const;
+  double GetPerceptualRoughness(int layer) const;
   int GetLayerFaceSize(int layer) const;
+  bool HasLayer(int layer) const;
   ///@}
+
+  /**
+   * Of layer 1: below it, reflections are mixed with the mirror's. 0.1.
+   */
+  static double GetFirstRoughness();
 
   ///@{
   /**
-   * The output: the cube map of layers 0, 2, 4 … and that of 1, 3, 5 …, and what their values are multiplied by to be
-   * radiance.
+   * How many layers were made so far, over all builds that GetStatistics() has, the irradiance map among them; and by
+   * the last build.
    */
-  const vtkIBLGL::Texture& GetEvenLayers() const;
+  vtkTypeInt64 GetNumberOfLayersMade() const;
+  vtkGetMacro(LastNumberOfLayersMade, int);
+  ///@}
+
+  /**
+   * Texels and lights that the sampled engine read in the last build, one filtered fetch counted as one.
+   */
+  vtkGetMacro(NumberOfReads, vtkTypeInt64);
+
+  /**
+   * The error that was predicted for the layers as they stand, to compare with ErrorTolerance; it holds within a factor
+   * of two. Negative when none can be: of the sampled engine.
+   */
+  double GetPredictedError() const;
+
+  ///@{
+  /**
+   * The output: cube maps of layers 1, 3, 5 … and 2, 4, 6 …, the irradiance map, and what their values are multiplied
+   * by to be radiance.
+   */
   const vtkIBLGL::Texture& GetOddLayers() const;
-  double GetStoredScale() const { return this->StoredScale; }
+  const vtkIBLGL::Texture& GetEvenLayers() const;
+  const vtkIBLGL::Texture& GetIrradianceMap() const;
+  double GetStoredScale() const;
   ///@}
 
   ///@{
@@ -99,34 +170,47 @@ public:
   double GetBrightTexel(int index, double direction[3], double radiance[3]) const;
   ///@}
 
+  ///@{
   /**
-   * Copies one layer back from the GPU, as radiance: n x n x 6 float RGB in GL's face order, row 0 at t = -1. Null when
-   * there is none.
+   * Copies one layer, or the irradiance map over pi, back from the GPU, as radiance: n x n x 6 float RGB in GL's face
+   * order, row 0 at t = -1. Null when there is none.
    */
   vtkSmartPointer<vtkImageData> ReadLayer(int layer);
+  vtkSmartPointer<vtkImageData> ReadIrradianceMap();
+  ///@}
 
 protected:
   vtkIBLSpecularChain();
   ~vtkIBLSpecularChain() override;
 
   bool UpdateInput(vtkOpenGLRenderWindow* window, vtkMTimeType& inputTime) override;
-  vtkTypeInt64 Build(vtkOpenGLRenderWindow* window) override;
+  vtkIBLStatistics* GetInputStatistics() const override;
+  std::vector<vtkIBLStatistics::Work> Build(vtkOpenGLRenderWindow* window) override;
   void Release() override;
 
 private:
   vtkIBLSpecularChain(const vtkIBLSpecularChain&) = delete;
   void operator=(const vtkIBLSpecularChain&) = delete;
 
-  struct Internals;
-  std::unique_ptr<Internals> Internal;
-  vtkSmartPointer<vtkIBLCubeMap> CubeMap;
-  vtkTypeInt64 BuildSpectralLayers(vtkIBLGL::Texture* chains, int faceSize, double storedScale, int& firstLayer);
+  bool IsSpectral() const;
+  vtkSmartPointer<vtkImageData> Read(int layer); // 0: the irradiance map
 
+  struct Internals;
+  struct Layers;
+  std::unique_ptr<Internals> Internal;
+  vtkTypeInt64 MakeSpectral(Layers& out, const vtkIBLSpectrum& spectrum, const std::vector<int>& missing);
+  vtkTypeInt64 MakeSampled(vtkOpenGLRenderWindow* window, Layers& out, const std::vector<int>& missing);
+
+  vtkSmartPointer<vtkIBLCubeMap> CubeMap;
   int Engine = Spectral;
-  int NumberOfSamples = 512;
-  int FaceSize = 256;
-  int OutputFaceSize = 0;
-  double StoredScale = 1.0;
+  double ErrorTolerance = 0.02;
+  int FaceSize = 0;
+  int NumberOfSamples = 64;
+  bool FitReading = true;
+  double NeededRoughness[2] = { 0.0, 1.0 };
+  bool IrradianceNeeded = true;
+  int LastNumberOfLayersMade = 0;
+  vtkTypeInt64 NumberOfReads = 0;
 };
 
 #endif

@@ -3,10 +3,18 @@
 #include "vtkIBLStage.h"
 
 #include "vtkIBLGL.h"
+#include "vtkIBLStopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
+#include <utility>
+
+vtkIBLStage::vtkIBLStage()
+  : Statistics(vtkSmartPointer<vtkIBLStatistics>::New())
+{
+}
+
+vtkIBLStage::~vtkIBLStage() = default;
 
 void vtkIBLStage::PrintSelf(ostream& os, vtkIndent indent)
 {
@@ -14,6 +22,17 @@ void vtkIBLStage::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfBuilds: " << this->NumberOfBuilds << "\n"
      << indent << "LastBuildSeconds: " << this->LastBuildSeconds << "\n"
      << indent << "LastBuildTexels: " << this->LastBuildTexels << "\n";
+}
+
+void vtkIBLStage::SetStatistics(vtkIBLStatistics* statistics)
+{
+  this->Statistics =
+    statistics ? vtkSmartPointer<vtkIBLStatistics>(statistics) : vtkSmartPointer<vtkIBLStatistics>::New();
+}
+
+vtkIBLStatistics* vtkIBLStage::GetStatistics() const
+{
+  return this->Statistics;
 }
 
 vtkMTimeType vtkIBLStage::GetBuildTime() const
@@ -40,7 +59,7 @@ bool vtkIBLStage::Update(vtkOpenGLRenderWindow* window)
     this->AttemptTime.Modified();
     try
     {
-      const auto start = std::chrono::steady_clock::now();
+      const vtkIBLStopwatch stopwatch;
       window->MakeCurrent();
       while (glGetError() != GL_NO_ERROR) // somebody else's, and not to be reported as ours
       {
@@ -49,9 +68,20 @@ bool vtkIBLStage::Update(vtkOpenGLRenderWindow* window)
       {
         throw std::runtime_error(missing);
       }
-      this->LastBuildTexels = this->Build(window);
+      const auto getInputSeconds = [input = this->GetInputStatistics()]
+      { return input ? input->GetSeconds(vtkIBLStatistics::Total) : 0.0; };
+      const double before = getInputSeconds();
+      const std::vector<vtkIBLStatistics::Work> made = this->Build(window);
       glFinish();
-      this->LastBuildSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      this->LastBuildSeconds = stopwatch.GetSeconds();
+      this->LastBuildTexels = 0;
+      double own = this->LastBuildSeconds - (getInputSeconds() - before);
+      for (vtkIBLStatistics::Work work : made)
+      {
+        work.Seconds = std::exchange(own, 0.0); // the first has it
+        this->LastBuildTexels += work.Texels;
+        this->Statistics->Add(work);
+      }
       ++this->NumberOfBuilds;
       this->BuildTime.Modified();
     }

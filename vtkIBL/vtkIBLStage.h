@@ -10,9 +10,13 @@
 #ifndef vtkIBLStage_h
 #define vtkIBLStage_h
 
-#include "vtkIBLModule.h" // For export macro
+#include "vtkIBLModule.h"     // For export macro
+#include "vtkIBLStatistics.h" // For what was done
 #include "vtkObject.h"
+#include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
+
+#include <vector> // For std::vector
 
 class vtkOpenGLRenderWindow;
 class vtkWindow;
@@ -45,20 +49,33 @@ public:
   vtkGetMacro(LastBuildTexels, vtkTypeInt64);
   ///@}
 
+  ///@{
+  /**
+   * Where all builds are counted. Default: an object of its own; vtkIBLLighting's stages share one. Never null.
+   */
+  void SetStatistics(vtkIBLStatistics* statistics);
+  vtkIBLStatistics* GetStatistics() const;
+  ///@}
+
   /**
    * When the output was last built; 0 when there is none.
    */
   vtkMTimeType GetBuildTime() const;
 
 protected:
-  vtkIBLStage() = default;
-  ~vtkIBLStage() override = default;
+  vtkIBLStage();
+  ~vtkIBLStage() override;
 
   /// Brings what is left of this stage up to date; false: there is nothing to build from. `inputTime`: when it last
   /// changed.
   virtual bool UpdateInput(vtkOpenGLRenderWindow* window, vtkMTimeType& inputTime) = 0;
-  /// Makes the output; returns the texels written. Throws std::runtime_error and leaves the old output when it can't.
-  virtual vtkTypeInt64 Build(vtkOpenGLRenderWindow* window) = 0;
+  /// Of what is left of this stage: time that it counts itself, while this stage builds, is its own. Null: none.
+  virtual vtkIBLStatistics* GetInputStatistics() const { return nullptr; }
+#ifndef __VTK_WRAP__
+  /// Makes the output; returns what was done for it, without the time. Throws std::runtime_error and leaves the old
+  /// output when it can't.
+  virtual std::vector<vtkIBLStatistics::Work> Build(vtkOpenGLRenderWindow* window) = 0;
+#endif
   /// Drops the output and all other GL objects.
   virtual void Release() = 0;
 
@@ -66,6 +83,7 @@ private:
   vtkIBLStage(const vtkIBLStage&) = delete;
   void operator=(const vtkIBLStage&) = delete;
 
+  vtkSmartPointer<vtkIBLStatistics> Statistics;
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   vtkMTimeType ContextTime = 0;
   vtkTimeStamp BuildTime;

@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestSupport.h"
 
+#include "vtkIBLCache.h"
+
 #include <vtkObjectFactory.h>
 
+#include <OpenImageIO/imageio.h>
+
+#include <unistd.h>
+
 #include <cstdlib>
-#include <filesystem>
 #include <utility>
 
 namespace reference = vtkIBLReference;
@@ -97,6 +102,37 @@ std::string GetHDRI(const std::string& name)
 {
   const std::string path = "/usr/share/blender/datafiles/studiolights/world/" + name + ".exr";
   return std::filesystem::exists(path) ? path : std::string();
+}
+
+void WriteEXR(const std::filesystem::path& path, vtkImageData* panorama)
+{
+  const int width = panorama->GetDimensions()[0];
+  const int height = panorama->GetDimensions()[1];
+  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::HALF);
+  spec.attribute("compression", "zip");
+  const auto file = OIIO::ImageOutput::create(path.string());
+  ASSERT_TRUE(file && file->open(path.string(), spec)) << path;
+  // A file begins at the top.
+  ASSERT_TRUE(file->write_image(OIIO::TypeDesc::FLOAT, panorama->GetScalarPointer(0, height - 1, 0), OIIO::AutoStride,
+    -OIIO::stride_t(12) * width));
+  ASSERT_TRUE(file->close()) << path;
+}
+
+OwnCache::OwnCache()
+{
+  std::string pattern = (std::filesystem::temp_directory_path() / "vtkIBL-XXXXXX").string();
+  this->Folder = mkdtemp(pattern.data());
+  unsetenv("VTKIBL_CACHE");
+  vtkIBLCache::SetDirectory((this->Folder / "cache").c_str());
+  vtkIBLCache::ClearMemory();
+}
+
+OwnCache::~OwnCache()
+{
+  vtkIBLCache::ClearMemory();
+  vtkIBLCache::SetDirectory("");
+  setenv("VTKIBL_CACHE", "off", 1);
+  std::filesystem::remove_all(this->Folder);
 }
 
 reference::Environment ToReference(vtkImageData* panorama)

@@ -15,6 +15,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -55,6 +56,22 @@ vtkSmartPointer<vtkImageData> MakeFaces(int n, const std::function<RGB(Vec3)>& f
 
 /// Path of one of Debian's CC0 studio lights ("city", "studio" …), or empty where blender-data is not installed.
 std::string GetHDRI(const std::string& name);
+
+/// The same as an OpenEXR file, half floats, ZIP.
+void WriteEXR(const std::filesystem::path& path, vtkImageData* panorama);
+
+/// While this lives, vtkIBLCache has a directory of its own on disk, and nothing in it or in memory at first.
+class OwnCache
+{
+public:
+  OwnCache();
+  ~OwnCache();
+  /// For the test's own files.
+  std::filesystem::path GetFolder() const { return this->Folder; }
+
+private:
+  std::filesystem::path Folder;
+};
 
 /// A lat-long image for the reference.
 vtkIBLReference::Environment ToReference(vtkImageData* panorama);

@@ -393,9 +393,9 @@ TEST_F(TestRenderPassGL, SelectionBakesNothing)
   vtkSmartPointer<vtkSelection> selection;
   selection.TakeReference(selector->Select());
   EXPECT_EQ(selection->GetNumberOfNodes(), 1u);
-  EXPECT_EQ(this->Pass->GetLighting()->GetCubeMap()->GetNumberOfBuilds(), 1);
+  EXPECT_EQ(this->Pass->GetLighting()->GetSpecularChain()->GetNumberOfBuilds(), 1);
   this->Window->Render();
-  EXPECT_EQ(this->Pass->GetLighting()->GetCubeMap()->GetNumberOfBuilds(), 2);
+  EXPECT_EQ(this->Pass->GetLighting()->GetSpecularChain()->GetNumberOfBuilds(), 2);
 }
 
 // With no environment given, a built-in studio lights the scene.
