@@ -4,6 +4,7 @@
 #include "Tool.h"
 
 #include "vtkIBLBRDFTable.h"
+#include "vtkIBLCache.h"
 #include "vtkIBLCubeMap.h"
 #include "vtkIBLIrradiance.h"
 #include "vtkIBLLighting.h"
@@ -22,6 +23,7 @@ namespace
 {
 constexpr int MostSamples = 65536; // vtkIBLSpecularChain's own bounds
 constexpr int LeastSamples = 16;
+constexpr double LeastTolerance = 0.002;
 
 struct BakeOptions
 {
@@ -33,76 +35,91 @@ struct BakeOptions
   bool Verbose = false;
 };
 
-// Mean relative L1 error of the rough layers (perceptualRoughness 0.56, 0.75, 1) of the spectral engine: half floats'
-// rounding, over the same eight maps.
-constexpr double SpectralError = 1.8e-4;
-
-// The same that N samples leave: k N^-1/2, by
-// measurement. The eight HDRIs of Blender's studiolights/world, 1024 x 512, against the converged integral at about 384
-// texels a layer; mean over the maps of the error:
-//   N = 64: 0.0909 (k = 0.73)   256: 0.0513 (0.82)   1024: 0.0360 (1.15)   mean of the three: k = 0.90
-// It is a rule for a typical map: light from small lamps takes more (sunrise 1.3 to 2.6, night 0.75 to 2.0), soft light
-// less (courtyard 0.2 to 0.45, sunset 0.17 to 0.25); city, interior and studio lie within 0.68 to 1.5.
+// What N samples leave in the sharp layers (perceptualRoughness 0.1 to 0.32) of the sampled engine; rough ones have
+// 0.1 % whatever N is. k N^-1/2 and a floor, by measurement: over eight maps, against the converged integral at
+// about 384 texels a layer, mean over maps and layers:
+//   N = 32: 0.0340   64: 0.0225   128: 0.0155   256: 0.0102   512: 0.0080
+// It is a rule for a typical map: soft light takes a fifth (sunset), small lamps and panels twice (sunrise, studio).
+constexpr double SampledFloor = 0.003;
+constexpr double SampledSlope = 0.18;
 double PredictError(int samples)
 {
-  constexpr double k = 0.90;
-  return k / std::sqrt(samples);
+  return std::hypot(SampledSlope / std::sqrt(samples), SampledFloor);
 }
 
 int SamplesForTolerance(double tolerance)
 {
-  const double one = PredictError(1);
-  const double samples = std::max(std::ceil(one * one / (tolerance * tolerance)), double(LeastSamples));
-  if (samples > MostSamples)
+  if (tolerance < PredictError(MostSamples))
   {
     char text[160];
     std::snprintf(text, sizeof(text),
-      "--tolerance %g would take %.0f samples; %d are the most, for a tolerance of %.2g", tolerance, samples,
-      MostSamples, PredictError(MostSamples));
+      "--tolerance %g is below what sampling reaches: %d are the most samples, for a tolerance of %.2g; leave it to "
+      "--engine spectral",
+      tolerance, MostSamples, PredictError(MostSamples));
     throw tool::Failure(text);
+  }
+  const double samples =
+    std::max(std::ceil(SampledSlope * SampledSlope / (tolerance * tolerance - SampledFloor * SampledFloor)),
+      double(LeastSamples));
+  if (samples > MostSamples)
+  {
+    return MostSamples;
   }
   return static_cast<int>(samples);
 }
 
 // The layers whose roughnesses bracket [from, to]: first and last.
-std::array<int, 2> FindLayers(double from, double to)
+std::array<int, 2> FindLayers(const vtkIBLSpecularChain* chain, double from, double to)
 {
   int first = 0;
-  int last = vtkIBLSpecularChain::GetNumberOfLayers() - 1;
-  while (first < last && vtkIBLSpecularChain::GetPerceptualRoughness(first + 1) <= from)
+  int last = chain->GetNumberOfLayers();
+  while (first < last && chain->GetPerceptualRoughness(first + 1) <= from)
   {
     ++first;
   }
-  while (last > first && vtkIBLSpecularChain::GetPerceptualRoughness(last - 1) >= to)
+  while (last > first && chain->GetPerceptualRoughness(last - 1) >= to)
   {
     --last;
   }
   return { first, last };
 }
 
-JSON WriteLayers(
-  vtkIBLSpecularChain* chain, const BakeOptions& options, const fs::path& folder, tool::OutputFiles& files)
+// Radiance over `scale`; returns the face's size.
+int WriteCube(vtkImageData* image, double roughness, double scale, const fs::path& path, tool::OutputFiles& files)
+{
+  tool::ThrowIfError();
+  const int n = image->GetDimensions()[0];
+  auto* value = static_cast<float*>(image->GetScalarPointer());
+  std::transform(value, value + 18 * std::ptrdiff_t(n) * n, value, [=](float x) { return float(x / scale); });
+  const JSON metadata = { { "vtkibl:perceptualRoughness", roughness }, { "vtkibl:exposureScale", scale },
+    { "vtkibl:layout", "six faces +X -X +Y -Y +Z -Z top to bottom, OpenGL's s to the right and t down" } };
+  // Memory has face after face with row 0 at t = 0: the file's own order, no row is turned.
+  files.Add(path, tool::EncodeEXR(n, 6 * n, { "R", "G", "B" }, value, metadata));
+  return n;
+}
+
+JSON WriteLayers(vtkIBLLighting* lighting, const BakeOptions& options, const fs::path& folder, tool::OutputFiles& files)
 {
   JSON layers = JSON::array();
-  const auto [first, last] = FindLayers(options.Roughness[0], options.Roughness[1]);
+  vtkIBLSpecularChain* chain = lighting->GetSpecularChain();
+  const auto [first, last] = FindLayers(chain, options.Roughness[0], options.Roughness[1]);
   for (int layer = first; layer <= last; ++layer)
   {
-    const vtkSmartPointer<vtkImageData> image = chain->ReadLayer(layer);
-    tool::ThrowIfError();
-    const int n = image->GetDimensions()[0];
-    auto* value = static_cast<float*>(image->GetScalarPointer());
-    const double scale = chain->GetStoredScale();
-    std::transform(value, value + 18 * std::ptrdiff_t(n) * n, value, [=](float x) { return float(x / scale); });
-
-    const double roughness = vtkIBLSpecularChain::GetPerceptualRoughness(layer);
+    const double roughness = chain->GetPerceptualRoughness(layer);
     const std::string file = "layer_" + std::to_string(layer) + ".exr";
-    const JSON metadata = { { "vtkibl:perceptualRoughness", roughness }, { "vtkibl:exposureScale", scale },
-      { "vtkibl:layout", "six faces +X -X +Y -Y +Z -Z top to bottom, OpenGL's s to the right and t down" } };
-    // Memory has face after face with row 0 at t = 0: the file's own order, no row is turned.
-    files.Add(folder / file, tool::EncodeEXR(n, 6 * n, { "R", "G", "B" }, value, metadata));
+    const int n = WriteCube(layer == 0 ? lighting->GetCubeMap()->ReadLevel(0) : chain->ReadLayer(layer), roughness,
+      chain->GetStoredScale(), folder / file, files);
     layers.push_back({ { "index", layer }, { "perceptualRoughness", roughness }, { "faceSize", n }, { "file", file } });
   }
   return layers;
+}
+
+JSON WriteIrradiance(vtkIBLSpecularChain* chain, const fs::path& folder, tool::OutputFiles& files)
+{
+  const int n = WriteCube(chain->ReadIrradianceMap(), 1.0, chain->GetStoredScale(), folder / "irradiance.exr", files);
+  return { { "file", "irradiance.exr" }, { "faceSize", n },
+    { "quantity",
+      "irradiance over pi, that is, the mean of radiance under the clamped cosine; laid out as layers are" } };
 }
 
 JSON WriteBRDF(vtkIBLBRDFTable* table, const fs::path& folder, tool::OutputFiles& files)
@@ -132,7 +149,7 @@ JSON WriteBRDF(vtkIBLBRDFTable* table, const fs::path& folder, tool::OutputFiles
 JSON DescribeHarmonics(vtkIBLIrradiance* irradiance)
 {
   JSON coefficients = JSON::array();
-  for (int i = 0; i < 9; ++i)
+  for (int i = 0; i < irradiance->GetNumberOfCoefficients(); ++i)
   {
     double rgb[3];
     irradiance->GetRadianceCoefficient(i, rgb);
@@ -143,7 +160,7 @@ JSON DescribeHarmonics(vtkIBLIrradiance* irradiance)
              "not divided by exposureScale" },
     { "basis",
       "real, orthonormal, no Condon-Shortley sign; z is the polar axis of the formulas, y is up in the world" },
-    { "order", 2 }, { "index", "l (l + 1) + m" },
+    { "order", irradiance->GetOrder() }, { "index", "l (l + 1) + m" },
     { "functions", { "1", "y", "z", "x", "xy", "yz", "3z^2-1", "xz", "x^2-y^2" } },
     { "factors",
       { 0.5 / std::sqrt(M_PI), std::sqrt(0.75 / M_PI), std::sqrt(0.75 / M_PI), std::sqrt(0.75 / M_PI),
@@ -152,9 +169,9 @@ JSON DescribeHarmonics(vtkIBLIrradiance* irradiance)
     { "irradianceFactors", { M_PI, 2 * M_PI / 3, M_PI / 4 } }, { "coefficients", coefficients } };
 }
 
-JSON DescribeStages(vtkIBLLighting* lighting, double readSeconds)
+JSON DescribeStages(vtkIBLLighting* lighting, vtkIBLIrradiance* irradiance, double readSeconds)
 {
-  const vtkIBLEnvironment* environment = lighting->GetEnvironment();
+  vtkIBLEnvironment* environment = lighting->GetEnvironment();
   const auto stage = [](const char* name, vtkIBLStage* made, int bytesATexel)
   {
     return JSON{ { "name", name }, { "milliseconds", 1000.0 * made->GetLastBuildSeconds() },
@@ -163,8 +180,8 @@ JSON DescribeStages(vtkIBLLighting* lighting, double readSeconds)
   return { { { "name", "read" }, { "milliseconds", 1000.0 * readSeconds },
              { "bytes", 12 * environment->GetRadianceImage()->GetNumberOfPoints() } },
     stage("cubeMap", lighting->GetCubeMap(), 16), // RGBA32F
-    { { "name", "irradiance" }, { "milliseconds", 1000.0 * lighting->GetIrradiance()->GetLastBuildSeconds() },
-      { "bytes", 9 * 3 * sizeof(double) } },
+    { { "name", "harmonics" }, { "milliseconds", 1000.0 * irradiance->GetLastBuildSeconds() },
+      { "bytes", irradiance->GetNumberOfCoefficients() * 3 * sizeof(double) } },
     stage("specularChain", lighting->GetSpecularChain(), 8), // RGBA16F
     stage("brdfTable", lighting->GetBRDFTable(), 4) };       // RG16
 }
@@ -185,33 +202,60 @@ JSON DescribeBrightTexels(const vtkIBLSpecularChain* chain)
 // The spectral engine takes lat-long images; what is made of faces is sampled.
 bool IsSpectral(const BakeOptions& options, vtkIBLLighting* lighting)
 {
-  return options.Engine == "spectral" && lighting->GetEnvironment()->GetRadianceImage()->GetDimensions()[2] == 1;
+  return options.Engine == "spectral" && lighting->GetEnvironment()->GetNumberOfFaces() == 1;
 }
 
-JSON DescribeBake(const BakeOptions& options, vtkIBLLighting* lighting)
+void SetTolerance(const BakeOptions& options, vtkIBLLighting* lighting)
+{
+  if (!IsSpectral(options, lighting))
+  {
+    lighting->GetSpecularChain()->SetNumberOfSamples(SamplesForTolerance(options.Tolerance));
+    return;
+  }
+  if (options.Tolerance < LeastTolerance)
+  {
+    char text[160];
+    std::snprintf(text, sizeof(text), "--tolerance %g is below what half floats and layers can keep; take %g or more",
+      options.Tolerance, LeastTolerance);
+    throw tool::Failure(text);
+  }
+  lighting->GetSpecularChain()->SetErrorTolerance(options.Tolerance);
+}
+
+double GetPredictedError(const BakeOptions& options, vtkIBLLighting* lighting)
+{
+  vtkIBLSpecularChain* chain = lighting->GetSpecularChain();
+  return IsSpectral(options, lighting) ? chain->GetPredictedError() : PredictError(chain->GetNumberOfSamples());
+}
+
+JSON DescribeBake(const BakeOptions& options, vtkIBLLighting* lighting, vtkIBLIrradiance* irradiance)
 {
   vtkIBLEnvironment* environment = lighting->GetEnvironment();
-  const int samples = lighting->GetSpecularChain()->GetNumberOfSamples();
+  vtkIBLSpecularChain* chain = lighting->GetSpecularChain();
   JSON json = { { "format", "vtkibl-bake" }, { "version", tool::FormatVersion }, { "generator", tool::Generator } };
   json.update(tool::DescribeEnvironment(options.Input, environment));
   double rgb[3];
-  lighting->GetIrradiance()->GetRadianceCoefficient(0, rgb);
+  irradiance->GetRadianceCoefficient(0, rgb);
   const double mean = 0.5 / std::sqrt(M_PI); // c00 = mean 4 pi Y00, Y00 = 1/(2 sqrt(pi))
   json["mean"] = { mean * rgb[0], mean * rgb[1], mean * rgb[2] };
   json["cleanedTexels"] = { { "notFinite", environment->GetNumberOfNotFiniteTexels() },
     { "tooLarge", environment->GetNumberOfTooLargeTexels() },
     { "negative", environment->GetNumberOfNegativeTexels() } };
-  json["exposureScale"] = lighting->GetSpecularChain()->GetStoredScale();
+  json["exposureScale"] = chain->GetStoredScale();
   const bool spectral = IsSpectral(options, lighting);
   json["engine"] = spectral ? "spectral" : "sampled";
-  json["settings"] = { { "numberOfSamples", samples },
-    { "specularFaceSize", lighting->GetSpecularChain()->GetLayerFaceSize(0) },
-    { "cubeFaceSize", lighting->GetCubeMap()->GetOutputFaceSize() },
-    { "brdfSamples", lighting->GetBRDFTable()->GetNumberOfSamples() }, { "roughness", options.Roughness } };
+  json["settings"] = { { "numberOfSamples", chain->GetNumberOfSamples() },
+    { "errorTolerance", chain->GetErrorTolerance() }, { "specularFaceSize", chain->GetLayerFaceSize(1) },
+    { "numberOfLayers", chain->GetNumberOfLayers() }, { "cubeFaceSize", lighting->GetCubeMap()->GetOutputFaceSize() },
+    { "harmonicsOrder", irradiance->GetOrder() }, { "brdfSamples", lighting->GetBRDFTable()->GetNumberOfSamples() },
+    { "roughness", options.Roughness } };
   json["tolerance"] = options.Tolerance > 0.0 ? JSON(options.Tolerance) : JSON(nullptr);
-  json["predictedError"] = spectral ? SpectralError : PredictError(samples);
-  json["harmonics"] = DescribeHarmonics(lighting->GetIrradiance());
-  json["brightTexels"] = DescribeBrightTexels(lighting->GetSpecularChain());
+  json["predictedError"] = GetPredictedError(options, lighting);
+  json["predictedErrorOf"] = spectral
+    ? "what is read bilinearly and mixed between two layers, relative L1 at the worst roughness from 0.1 up"
+    : "texels of layers of perceptualRoughness 0.1 to 0.32, mean relative L1";
+  json["harmonics"] = DescribeHarmonics(irradiance);
+  json["brightTexels"] = DescribeBrightTexels(chain);
   return json;
 }
 
@@ -254,45 +298,69 @@ void PrintSummary(const JSON& json)
     std::printf("%-14s %10.1f ms %12lld bytes\n", stage["name"].get<std::string>().c_str(),
       stage["milliseconds"].get<double>(), stage["bytes"].get<long long>());
   }
-  std::printf("%d samples at roughness 1, predicted error %.2g, exposure scale %g, %zu layers\n",
-    json["settings"]["numberOfSamples"].get<int>(), json["predictedError"].get<double>(),
-    json["exposureScale"].get<double>(), json["layers"].size());
+  std::printf("%s, predicted error %.2g, exposure scale %g, %zu layers\n", json["engine"].get<std::string>().c_str(),
+    json["predictedError"].get<double>(), json["exposureScale"].get<double>(), json["layers"].size());
+}
+
+// What of the light is written: irradiance, and the layers that bracket the roughness asked for.
+void BuildLight(const BakeOptions& options, vtkIBLLighting* lighting, vtkIBLIrradiance* irradiance,
+  vtkIBLOffscreenWindow* window, tool::Progress& progress)
+{
+  progress.Set(0.4, "light");
+  vtkIBLSceneNeeds needs;
+  needs.Irradiance = true;
+  needs.AddRoughness(options.Roughness[0], options.Roughness[1]);
+  const bool built = lighting->Update(window, needs) && irradiance->Update(window);
+  tool::ThrowIfError();
+  if (!built)
+  {
+    throw tool::Failure("the light of '" + options.Input + "' could not be made");
+  }
 }
 
 void Bake(const BakeOptions& options)
 {
   tool::Progress progress;
+  vtkIBLCache::SetEnabled(false); // times are of a bake, and pixels are at hand
   const auto start = std::chrono::steady_clock::now();
   vtkNew<vtkIBLOffscreenWindow> window;
   vtkNew<vtkIBLLighting> lighting;
+  vtkNew<vtkIBLIrradiance> irradiance;
   lighting->GetSpecularChain()->SetEngine(
     options.Engine == "spectral" ? vtkIBLSpecularChain::Spectral : vtkIBLSpecularChain::Sampled);
+  lighting->GetSpecularChain()->FitReadingOff();
+  lighting->SetEnvironment(tool::ReadEnvironment(options.Input, progress));
+  irradiance->SetEnvironment(lighting->GetEnvironment());
   if (options.Tolerance > 0.0)
   {
-    lighting->GetSpecularChain()->SetNumberOfSamples(SamplesForTolerance(options.Tolerance));
+    SetTolerance(options, lighting);
   }
-  lighting->SetEnvironment(tool::ReadEnvironment(options.Input, progress));
   const std::chrono::duration<double> readTime = std::chrono::steady_clock::now() - start;
   const OutputFolder folder(options.Output);
   tool::CheckOutput(folder.Path / "bake.json");
   tool::StartWindow(window, { 16, 16 });
-  tool::BuildLighting(lighting, window, progress);
+  BuildLight(options, lighting, irradiance, window, progress);
 
   progress.Set(0.9, "writing");
-  JSON json = DescribeBake(options, lighting);
-  json["stages"] = DescribeStages(lighting, readTime.count());
+  JSON json = DescribeBake(options, lighting, irradiance);
+  json["stages"] = DescribeStages(lighting, irradiance, readTime.count());
   tool::OutputFiles files;
   json["layerLayout"] =
     "six faces +X -X +Y -Y +Z -Z stacked top to bottom, each with OpenGL's own s to the right and t "
     "down (OpenGL 4.6, table 8.19): the file's top row is t = 0 of face +X. Radiance = value times "
     "exposureScale";
-  json["layers"] = WriteLayers(lighting->GetSpecularChain(), options, folder.Path, files);
+  json["layers"] = WriteLayers(lighting, options, folder.Path, files);
+  json["irradiance"] = WriteIrradiance(lighting->GetSpecularChain(), folder.Path, files);
   json["brdf"] = WriteBRDF(lighting->GetBRDFTable(), folder.Path, files);
   files.Add(folder.Path / "bake.json", tool::EncodeJSON(json));
   files.Commit();
   progress.Finish();
   lighting->ReleaseGraphicsResources(window);
-
+  if (IsSpectral(options, lighting) && json["predictedError"] > json["settings"]["errorTolerance"])
+  {
+    tool::PrintWarning("the largest layers are predicted to be " + json["predictedError"].dump() +
+      " off, more than the tolerance of " + json["settings"]["errorTolerance"].dump());
+  }
   if (options.Verbose)
   {
     PrintSummary(json);
@@ -307,22 +375,24 @@ void tool::AddBake(CLI::App& app)
   CLI::App* command = app.add_subcommand(
     "bake", "Writes an environment's precomputed light as float OpenEXR files and a JSON file that describes them.");
   command->footer("Example:\n  vtkibl bake studio.exr --output studio-light --tolerance 0.02\n\n"
-                  "DIR gets layer_<i>.exr (reflections, mirror to matt), brdf.exr (the split sum's table) and, last,\n"
-                  "bake.json (conventions, spherical harmonics, settings, cost): where it is, the bake is complete.");
+                  "DIR gets layer_<i>.exr (reflections, mirror to matt), irradiance.exr, brdf.exr (the split sum's\n"
+                  "table) and, last, bake.json (conventions, spherical harmonics, settings, cost): where it is, the\n"
+                  "bake is complete.");
   command->add_option("IN", options->Input, "Environment: any image that OpenImageIO reads, lat-long or a cube layout")
     ->required()
     ->type_name("");
   command->add_option("--output", options->Output, "Folder to write to; made if need be")->required()->type_name("DIR");
   command
     ->add_option("--tolerance", options->Tolerance,
-      "Mean relative error that sampled rough layers may have, in (0, 0.5]: sets the number\n"
-      "of samples; default: 512 samples at roughness 1")
+      "Relative error that reflections may have, in (0, 0.5]: sets how many layers there are\n"
+      "and how large, of the spectral engine (default 0.02, least 0.002), and the samples of\n"
+      "sharp layers of the sampled one (default: 64 a texel)")
     ->check(InRange(0.0, 0.5, true))
     ->type_name("T");
   command
     ->add_option("--engine", options->Engine,
-      "How layers are computed: spectral (default; layers below roughness 0.17, and all of a\n"
-      "cube's, are sampled) or sampled")
+      "How layers are computed: spectral (default; those of a cube are sampled all the same)\n"
+      "or sampled")
     ->check(CLI::IsMember({ "spectral", "sampled" }))
     ->type_name("ENGINE");
   AddNumbers(command, "--roughness", options->Roughness, ':', 0.0, 1.0, "A:B",

@@ -2,13 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Tool.h"
 
-#include "vtkIBLBRDFTable.h"
-#include "vtkIBLCubeMap.h"
-#include "vtkIBLImageReader.h"
-#include "vtkIBLIrradiance.h"
-#include "vtkIBLLighting.h"
-#include "vtkIBLSpecularChain.h"
-
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkMath.h>
@@ -28,21 +21,15 @@ void ShowReading(vtkObject*, unsigned long, void* progress, void* share)
 
 vtkSmartPointer<vtkIBLEnvironment> tool::ReadEnvironment(const std::string& fileName, Progress& progress)
 {
-  vtkNew<vtkIBLImageReader> reader;
-  reader->SetFileName(fileName.c_str());
-  reader->SetMaximumWidth(4096); // vtkIBLEnvironment's own
+  auto environment = vtkSmartPointer<vtkIBLEnvironment>::New();
+  environment->SetFileName(fileName.c_str());
   vtkNew<vtkCallbackCommand> observer;
   observer->SetCallback(ShowReading);
   observer->SetClientData(&progress);
-  const unsigned long tag = reader->AddObserver(vtkCommand::ProgressEvent, observer);
-  reader->Update();
-  reader->RemoveObserver(tag); // the bar may go before the reader does
-  ThrowIfError();
-
-  auto environment = vtkSmartPointer<vtkIBLEnvironment>::New();
-  environment->SetInputConnection(reader->GetOutputPort());
+  const unsigned long tag = environment->AddObserver(vtkCommand::ProgressEvent, observer);
   const bool lit = environment->Update();
-  ThrowIfError(fileName + ": "); // with an error the light is not that of the file
+  environment->RemoveObserver(tag); // the bar may go before the environment does
+  ThrowIfError();                   // with an error the light is not that of the file
   if (!lit)
   {
     throw Failure("too little memory for '" + fileName + "'");
@@ -65,34 +52,12 @@ void tool::StartWindow(vtkIBLOffscreenWindow* window, Size size)
   }
 }
 
-void tool::BuildLighting(vtkIBLLighting* lighting, vtkIBLOffscreenWindow* window, Progress& progress)
-{
-  struct
-  {
-    vtkIBLStage* Stage;
-    double Share;
-    const char* Doing;
-  } const steps[] = { { lighting->GetBRDFTable(), 0.30, "BRDF table" }, { lighting->GetCubeMap(), 0.35, "cube map" },
-    { lighting->GetIrradiance(), 0.40, "irradiance" }, { lighting->GetSpecularChain(), 0.45, "specular chain" } };
-  for (const auto& step : steps)
-  {
-    progress.Set(step.Share, step.Doing);
-    const bool built = step.Stage->Update(window);
-    ThrowIfError();
-    if (!built)
-    {
-      throw Failure(std::string("the ") + step.Doing + " could not be built");
-    }
-  }
-}
-
 tool::JSON tool::DescribeEnvironment(const std::string& fileName, vtkIBLEnvironment* environment)
 {
-  int dimensions[3];
-  environment->GetRadianceImage()->GetDimensions(dimensions);
   JSON json;
   json["source"] = fileName;
-  json["size"] = { { "width", dimensions[0] }, { "height", dimensions[1] }, { "faces", dimensions[2] } };
+  json["size"] = { { "width", environment->GetWidth() }, { "height", environment->GetHeight() },
+    { "faces", environment->GetNumberOfFaces() } };
   json["meanLuminance"] = environment->GetMeanLuminance();
   return json;
 }

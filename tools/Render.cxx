@@ -124,8 +124,7 @@ void Render(const RenderOptions& options)
   window->SetMultiSamples(8); // the picture on a screen; an EXR's pixels are one ray each
   window->AddRenderer(renderer);
   renderer->ResetCameraClippingRange();
-  tool::BuildLighting(ibl->GetLighting(), window, progress);
-  progress.Set(0.9, "picture");
+  progress.Set(0.4, "light and picture");
   const bool linear = tool::Extension(options.Output) == ".exr";
   tool::OutputFiles files;
   files.Add(options.Output, Photograph(ibl, renderer, window, linear));

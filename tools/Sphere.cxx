@@ -162,8 +162,7 @@ void Sphere(const SphereOptions& options)
   renderer->SetPass(ibl);
   tool::StartWindow(window, options.Size);
   window->AddRenderer(renderer);
-  tool::BuildLighting(ibl->GetLighting(), window, progress);
-  progress.Set(0.9, "picture");
+  progress.Set(0.4, "light and picture");
 
   const std::vector<float> picture = Capture(ibl, renderer);
   tool::OutputFiles files;

@@ -21,7 +21,6 @@
 #include <thread>
 #include <vector>
 
-class vtkIBLLighting;
 class vtkPolyData;
 
 namespace tool
@@ -94,12 +93,10 @@ CLI::Validator HasExtension(const std::vector<std::string>& extensions);
 
 // ---- Light and surfaces (Light.cxx, Surface.cxx) -----------------------------------------------------------------
 
-/// Light of an image file; one that can't be read throws.
+/// Light of an image file, out of vtkIBLCache if that is on; one that can't be read throws.
 vtkSmartPointer<vtkIBLEnvironment> ReadEnvironment(const std::string& fileName, Progress& progress);
 /// Makes the window's context.
 void StartWindow(vtkIBLOffscreenWindow* window, Size size);
-/// Builds all stages.
-void BuildLighting(vtkIBLLighting* lighting, vtkIBLOffscreenWindow* window, Progress& progress);
 /// "source", "size" and "mean" of the light.
 JSON DescribeEnvironment(const std::string& fileName, vtkIBLEnvironment* environment);
 /// Unit direction of the middle of texel (i, j, k) of an environment's image.

@@ -6,7 +6,6 @@
 #include "vtkIBLBRDFTable.h"
 #include "vtkIBLCubeMap.h"
 #include "vtkIBLEnvironment.h"
-#include "vtkIBLIrradiance.h"
 #include "vtkIBLLighting.h"
 #include "vtkIBLRenderPass.h"
 #include "vtkIBLSpecularChain.h"
@@ -43,18 +42,16 @@ inline bool WritePicture(vtkRenderWindow* window, const std::string& fileName)
 inline void PrintStages(vtkIBLRenderPass* ibl)
 {
   vtkIBLLighting* lighting = ibl->GetLighting();
-  int dimensions[3];
-  lighting->GetEnvironment()->GetRadianceImage()->GetDimensions(dimensions);
-  const char* file = lighting->GetEnvironment()->GetFileName();
-  std::printf("environment: %s, %d x %d, mean luminance %.3g\n", file ? file : "built-in studio", dimensions[0],
-    dimensions[1], lighting->GetEnvironment()->GetMeanLuminance());
+  const vtkIBLEnvironment* light = lighting->GetEnvironment();
+  const char* file = light->GetFileName();
+  std::printf("environment: %s, %d x %d, mean luminance %.3g\n", file ? file : "built-in studio", light->GetWidth(),
+    light->GetHeight(), light->GetMeanLuminance());
   auto print = [](const char* name, vtkIBLStage* stage)
   {
     std::printf("  %-14s %8.1f ms  %9lld texels\n", name, 1000.0 * stage->GetLastBuildSeconds(),
       static_cast<long long>(stage->GetLastBuildTexels()));
   };
   print("cube map", lighting->GetCubeMap());
-  print("irradiance", lighting->GetIrradiance());
-  print("specular chain", lighting->GetSpecularChain());
+  print("layers", lighting->GetSpecularChain());
   print("BRDF table", lighting->GetBRDFTable());
 }

@@ -164,3 +164,28 @@ TEST_F(TestToolRenderGL, BackgroundAndSampledAreHandedOn)
   EXPECT_NE(sampled.At(40, 25)[0], shown.At(40, 25)[0]);
   EXPECT_NEAR(sampled.At(40, 25)[0], shown.At(40, 25)[0], 0.5);
 }
+
+// Render keeps its light for the next, which looks the same to the bit, and bake keeps nothing. That what is kept is
+// taken is TestCache's. Mutants: the cache off in render, on in bake.
+TEST_F(TestToolRenderGL, KeepsItsLightAndBakeDoesNot)
+{
+  this->WritePanorama("in.exr", MakePanorama(64, [](Vec3 d) { return RGB{ 1 + d.x, 2 + d.y, 1.5 }; }));
+  const std::string use = "export VTKIBL_CACHE=on XDG_CACHE_HOME=\"$PWD/cache\" &&";
+  const auto countCached = [this]
+  {
+    int files = 0;
+    for (const std::string& name : this->List())
+    {
+      files += name.rfind("cache/vtkIBL/vtkIBL-", 0) == 0;
+    }
+    return files;
+  };
+  ASSERT_EQ(this->Run("bake in.exr --output out", use).Status, 0);
+  EXPECT_EQ(countCached(), 0);
+  const std::string render = "render t.stl --environment in.exr --output ";
+  ASSERT_EQ(this->Run(render + "first.exr", use).Status, 0);
+  EXPECT_EQ(countCached(), 1);
+  ASSERT_EQ(this->Run(render + "second.exr", use).Status, 0);
+  EXPECT_EQ(countCached(), 1);
+  EXPECT_EQ(this->ReadPicture("first.exr").Values, this->ReadPicture("second.exr").Values);
+}

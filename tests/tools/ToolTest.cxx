@@ -40,8 +40,9 @@ Outcome ToolTest::Run(const std::string& arguments, const std::string& before) c
 {
   const std::string out = this->Folder.string() + ".out"; // beside the folder, which tests list
   const std::string err = this->Folder.string() + ".err";
-  const std::string command = "unset DISPLAY; cd '" + this->Folder.string() + "' && " + before + " '" + VTKIBL_TOOL +
-    "' " + arguments + " >'" + out + "' 2>'" + err + "'";
+  // Nothing comes from the user's cache, and nothing goes there.
+  const std::string command = "unset DISPLAY; export VTKIBL_CACHE=off; cd '" + this->Folder.string() + "' && " +
+    before + " '" + VTKIBL_TOOL + "' " + arguments + " >'" + out + "' 2>'" + err + "'";
   const int status = std::system(command.c_str());
   const Outcome outcome{ WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadText(out), ReadText(err) };
   fs::remove(out);
