@@ -83,7 +83,7 @@ struct Row
     , Map(std::move(map))
   {
   }
-  std::string Panel; // "cube", "harmonics", "layer 0.4", "table", "bake", "first frame", "steady frame", "growth …"
+  std::string Panel; // "cube", "irradiance", "layer 0.40", "filter 0.300", "table", "bake", "threads", "first frame" …
   std::string Engine;
   std::string Setting; // "512 samples"
   std::string Map;     // empty where the work has no map
@@ -150,13 +150,19 @@ struct CubeWork : Work
 {
   Cube Result;
 };
-struct HarmonicsWork : Work
+struct IrradianceWork : Work
 {
-  std::function<RGB(Vec3)> Irradiance;
+  std::function<std::vector<RGB>(const std::vector<Vec3>&)> Read; // irradiance by normal
+};
+/// One way to keep irradiance.
+struct IrradianceKind
+{
+  std::string Setting;
+  std::function<IrradianceWork(const Map&)> Make;
 };
 struct LayersWork : Work
 {
-  std::vector<Layer> Layers; // as made
+  std::vector<Layer> Layers; // as made; none where MakeFilter tells
   /// As the engine's shader reads them.
   std::function<std::vector<RGB>(const std::vector<Vec3>&, double perceptualRoughness)> Read;
 };
@@ -169,18 +175,25 @@ struct TableWork : Work
 struct Engine
 {
   std::string Name;
-  std::vector<int> Samples; // the settings of its curve; the first is its default
+  /// The settings of its curve: samples a texel or, below 1, the tolerated error. The first is its default.
+  std::vector<double> Settings;
   std::vector<int> TableSamples;
-  /// It must not be worse than this, mean relative L1 of its layers as made, with the default setting; what --quick
-  /// tests.
+  /// It must not be worse than these, mean relative L1 of its layers with the default setting, as made and as read;
+  /// what
+  /// --quick tests.
   double LayerBound = 1;
+  double ReadBound = 1;
   double TableBound = 1; // the same for the table
   std::function<CubeWork(const Map&, int faceSize)> MakeCube;
-  std::function<HarmonicsWork(const Map&)> MakeHarmonics;
-  std::function<LayersWork(const Map&, int samples)> MakeLayers;
+  std::vector<IrradianceKind> Irradiance; // the first is its default
+  std::function<LayersWork(const Map&, double setting)> MakeLayers;
+  /// The filter alone, where layers are stored as something else.
+  std::function<std::vector<Layer>(const Map&)> MakeFilter;
   std::function<TableWork(int samples)> MakeTable;
   /// Everything from pixels in memory to what a shader reads; judged by its layers.
-  std::function<Work(const Map&, int samples)> MakeBake;
+  std::function<Work(const Map&, double setting)> MakeBake;
+  /// The same of what surfaces of roughness 0.1 to 1 read: no mirror.
+  std::function<Work(const Map&, double setting)> MakeMirrorlessBake;
   /// The same for cost growth, nothing judged; `faceSize` 0: the engine's own choice. Null result: can't or won't.
   std::function<std::function<Sample()>(vtkImageData* panorama, int faceSize)> MakeGrowth;
   int LargestGrowthSource = 0; // widths and faces above take minutes; not run
@@ -200,6 +213,9 @@ struct Session
   void Add(const Row& row); // prints it, too
 };
 
+/// "64 samples" or "tolerance 0.02".
+std::string FormatSetting(double setting);
+
 Engine MakeSpectral(Session& session); // BenchmarkOurs.cxx: vtkIBL's default
 Engine MakeSampled(Session& session);  // its other one
 Engine MakeVTK(Session& session);      // BenchmarkPeers.cxx
@@ -210,10 +226,14 @@ bool HasCmgen();
 
 void RunStages(Session& session); // BenchmarkStages.cxx
 void RunFrames(Session& session); // BenchmarkFrames.cxx
-/// Renders one first frame and prints its seconds: the process that "first frame" starts.
-int RunFirstFrame(const std::string& engine, const std::string& map);
+/// Renders one first frame and prints its seconds, and how often the disk had its light: the process that "first frame"
+/// starts. `fromFile`: its light comes from the file, or the cache, within these seconds; else from pixels in memory.
+int RunFirstFrame(const std::string& engine, const std::string& map, bool fromFile);
 void RunGrowth(Session& session);    // BenchmarkGrowth.cxx
+void RunThreads(Session& session);   // BenchmarkOurs.cxx
 void RunFunctions(Session& session); // BenchmarkFunctions.cxx
+/// Harmonics of a map and the layers of a ladder, once, on this thread: what an instruction counter is run on.
+int RunSpectrum(const std::string& map);
 
 // ---- Report --------------------------------------------------------------------------------------------
 

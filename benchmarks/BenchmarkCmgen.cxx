@@ -79,10 +79,10 @@ CubeWork MakeCube(const Map& map, int faceSize)
   return work;
 }
 
-HarmonicsWork MakeHarmonics(const Map& map)
+IrradianceWork MakeHarmonics(const Map& map)
 {
   const Place place = MakePlace(map.Image);
-  HarmonicsWork work;
+  IrradianceWork work;
   work.Run = [=] { return Run(place, HarmonicsArguments); };
   work.Run();
   std::ifstream file(place->Path + "/sh.txt");
@@ -100,7 +100,15 @@ HarmonicsWork MakeHarmonics(const Map& map)
     throw std::runtime_error("cmgen wrote " + std::to_string(coefficients.size()) + " harmonics, not 9");
   }
   work.Bytes = 9 * 3 * sizeof(float);
-  work.Irradiance = [=](Vec3 n) { return EvaluateIrradiance(coefficients, { -n.z, n.y, n.x }); };
+  work.Read = [=](const std::vector<Vec3>& normals)
+  {
+    std::vector<RGB> irradiance;
+    for (const Vec3& n : normals)
+    {
+      irradiance.push_back(EvaluateIrradiance(coefficients, { -n.z, n.y, n.x }));
+    }
+    return irradiance;
+  };
   return work;
 }
 
@@ -280,22 +288,22 @@ Engine MakeCmgen(Session& session)
   {
     return engine;
   }
-  engine.Samples = session.Options.Quick ? std::vector<int>{ 64 } : std::vector<int>{ 1024, 64, 256 };
+  engine.Settings = session.Options.Quick ? std::vector<double>{ 64 } : std::vector<double>{ 1024, 64, 256 };
   engine.TableSamples = { 1024 };
   engine.LayerBound = 0.35;
   engine.TableBound = 0.03;
   engine.MakeCube = MakeCube;
-  engine.MakeHarmonics = MakeHarmonics;
-  engine.MakeLayers = [=](const Map& map, int samples) { return MakeLayers(window, map, samples); };
+  engine.Irradiance = { { "9 coefficients", MakeHarmonics } };
+  engine.MakeLayers = [=](const Map& map, double samples) { return MakeLayers(window, map, int(samples)); };
   engine.MakeTable = [](int) { return MakeTable(); };
-  engine.MakeBake = [](const Map& map, int samples)
+  engine.MakeBake = [](const Map& map, double samples)
   {
     const Place place = MakePlace(map.Image);
     Work work;
     work.Run = [=]
     {
-      return Add(
-        Run(place, LayerArguments(FaceSize, samples)), Add(Run(place, HarmonicsArguments), Run(place, TableArguments)));
+      return Add(Run(place, LayerArguments(FaceSize, int(samples))),
+        Add(Run(place, HarmonicsArguments), Run(place, TableArguments)));
     };
     return work;
   };

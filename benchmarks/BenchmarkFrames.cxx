@@ -4,6 +4,8 @@
 // integral.
 #include "Benchmark.h"
 
+#include "BenchmarkPeers.h"
+#include "vtkIBLCache.h"
 #include "vtkIBLEnvironment.h"
 #include "vtkIBLGLHeader.h"
 #include "vtkIBLLighting.h"
@@ -60,7 +62,7 @@ const FrameEngine FrameEngines[] = {
 class Scene
 {
 public:
-  Scene(const FrameEngine& engine, vtkImageData* panorama)
+  Scene(const FrameEngine& engine, const Map& map, bool fromFile = false)
   {
     this->Window->SetSize(PictureSize, PictureSize);
     this->Window->AddRenderer(this->Renderer);
@@ -93,7 +95,7 @@ public:
     camera->SetClippingRange(90, 110);
     if (engine.VTKLight)
     {
-      this->Texture->SetInputData(panorama);
+      this->Texture->SetInputData(map.Image);
       this->Texture->MipmapOn();
       this->Texture->InterpolateOn();
       this->Texture->SetColorModeToDirectScalars();
@@ -104,7 +106,14 @@ public:
     if (engine.SamplesPerPixel >= 0)
     {
       vtkNew<vtkIBLEnvironment> environment;
-      environment->SetInputData(panorama);
+      if (fromFile)
+      {
+        environment->SetFileName(map.File.c_str());
+      }
+      else
+      {
+        environment->SetInputData(map.Image);
+      }
       this->Pass->SetEnvironment(environment);
       this->Pass->GetLighting()->SetSamplesPerPixel(engine.SamplesPerPixel);
       this->Pass->GetLighting()->GetSpecularChain()->SetEngine(
@@ -222,14 +231,14 @@ Error FindPictureError(const Session& session, const FrameEngine& engine, const 
       return *row.Error;
     }
   }
-  Scene scene(engine, map.Image);
+  Scene scene(engine, map);
   scene.Render();
   return JudgePicture(session, scene, engine, map);
 }
 
 void RunSteadyFrame(Session& session, const FrameEngine& engine, const Map& map)
 {
-  Scene scene(engine, map.Image);
+  Scene scene(engine, map);
   scene.Render();
   Row row("steady frame", engine.Name, engine.Setting, map.Name);
   if (IsLit(engine))
@@ -256,41 +265,59 @@ const FrameEngine& FindEngine(const std::string& setting)
   throw std::runtime_error("there is no engine " + setting);
 }
 
-void RunFirstFrames(Session& session, const FrameEngine& engine, bool coldCache)
+/// How warm a process starts.
+struct Start
+{
+  const char* Name;
+  const char* Variables; // of the environment
+  bool FromFile;
+  bool FromCache;
+  double Budget; // seconds of repetition
+};
+
+void RunFirstFrames(Session& session, const FrameEngine& engine, const Start& start)
 {
   const Map& map = session.Maps.front();
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
-  const std::string command = std::string(coldCache ? "MESA_SHADER_CACHE_DISABLE=true " : "") + "'" + self +
-    "' --first-frame '" + engine.Setting + "' --maps " + map.Name;
+  const std::string command = std::string(start.Variables) + " '" + self + "' --first-frame '" + engine.Setting +
+    "' --maps " + map.Name + (start.FromFile ? " --from-file" : "");
   auto run = [&]
   {
     std::string output;
     RunProcess(command, &output);
     Sample sample;
-    if (std::sscanf(output.c_str(), "%lf %lf", &sample.Wall, &sample.CPU) != 2)
+    int hits = 0;
+    if (std::sscanf(output.c_str(), "%lf %lf %d", &sample.Wall, &sample.CPU, &hits) != 3)
     {
       throw std::runtime_error("\"" + command + "\" printed: " + output);
     }
-    return sample;
+    return std::make_pair(sample, hits);
   };
-  Row row("first frame", engine.Name, std::string(engine.Setting) + (coldCache ? ", cold" : ""), map.Name);
+  // The first fills the cache, if there is one.
+  const bool cached = start.FromFile && (run(), run().second == 1);
+  if (cached != start.FromCache)
+  {
+    throw std::runtime_error("\"" + command + "\" " + (cached ? "found" : "did not find") + " its light in the cache");
+  }
+  const auto time = [&] { return run().first; };
+  Row row("first frame", engine.Name, std::string(engine.Setting) + start.Name, map.Name);
   if (IsLit(engine))
   {
     row.Error = FindPictureError(session, engine, map);
   }
-  const double budget = coldCache ? 25 : 60;
-  row.Samples = session.Options.Quick ? Repeat(run, 1, 0, 1) : Repeat(run, session.Options.Repeat, budget);
+  row.Samples = session.Options.Quick ? Repeat(time, 1, 0, 1) : Repeat(time, session.Options.Repeat, start.Budget);
   row.Default = true;
   session.Add(row);
 }
 }
 
-int RunFirstFrame(const std::string& setting, const std::string& map)
+int RunFirstFrame(const std::string& setting, const std::string& map, bool fromFile)
 {
   const Map loaded = LoadMap(map);
-  Scene scene(FindEngine(setting), loaded.Image);
+  vtkIBLCache::SetEnabled(fromFile); // VTKIBL_CACHE says whether of the disk, too
+  Scene scene(FindEngine(setting), loaded, fromFile);
   const Sample sample = scene.Render();
-  std::printf("%.6f %.6f\n", sample.Wall, sample.CPU);
+  std::printf("%.6f %.6f %d\n", sample.Wall, sample.CPU, int(vtkIBLCache::GetNumberOfDiskHits()));
   return 0;
 }
 
@@ -311,17 +338,30 @@ void RunFrames(Session& session)
   }
   if (session.Wants("first frame"))
   {
+    const std::string folder = MakeScratchFolder();
+    const std::string cached = "VTKIBL_CACHE=on XDG_CACHE_HOME='" + folder + "'";
+    const Start warm{ "", "", false, false, 25 };
+    const Start cold{ ", cold", "MESA_SHADER_CACHE_DISABLE=true", false, false, 15 };
+    const Start fromFile{ ", from the file", "VTKIBL_CACHE=off", true, false, 15 };
+    const Start fromCache{ ", cached", cached.c_str(), true, true, 15 };
     for (const FrameEngine& engine : FrameEngines)
     {
-      if (engine.SamplesPerPixel <= 0)
+      if (engine.SamplesPerPixel > 0)
       {
-        RunFirstFrames(session, engine, false);
-        if (IsLit(engine) && !session.Options.Quick)
-        {
-          RunFirstFrames(session, engine, true);
-        }
+        continue;
+      }
+      RunFirstFrames(session, engine, warm);
+      if (engine.PBR && !session.Options.Quick)
+      {
+        RunFirstFrames(session, engine, cold);
+      }
+      if (engine.SamplesPerPixel == 0)
+      {
+        RunFirstFrames(session, engine, fromFile);
+        RunFirstFrames(session, engine, fromCache);
       }
     }
+    std::filesystem::remove_all(folder);
   }
 }
 }

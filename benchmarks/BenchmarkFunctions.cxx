@@ -5,8 +5,8 @@
 
 #include "vtkIBLEnvironment.h"
 #include "vtkIBLImageReader.h"
+#include "vtkIBLLadder.h"
 #include "vtkIBLRadianceImage.h"
-#include "vtkIBLSampleTable.h"
 
 #include <benchmark/benchmark.h>
 
@@ -47,12 +47,25 @@ void ReadFile(benchmark::State& state, const std::string& file)
   }
 }
 
+vtkIBLRadianceImage View(vtkImageData* panorama)
+{
+  return { static_cast<float*>(panorama->GetScalarPointer()), panorama->GetDimensions()[0],
+    panorama->GetDimensions()[1], 1 };
+}
+
+void OnThisThread(int count, const std::function<void(int)>& body)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    body(i);
+  }
+}
+
 void Clean(benchmark::State& state, vtkImageData* panorama)
 {
   vtkNew<vtkImageData> copy;
   copy->DeepCopy(panorama);
-  vtkIBLRadianceImage image{ static_cast<float*>(copy->GetScalarPointer()), copy->GetDimensions()[0],
-    copy->GetDimensions()[1], 1 };
+  vtkIBLRadianceImage image = View(copy);
   for (auto _ : state)
   {
     benchmark::DoNotOptimize(vtkIBLCleanRadiance(image));
@@ -61,21 +74,60 @@ void Clean(benchmark::State& state, vtkImageData* panorama)
 
 void MeanLuminance(benchmark::State& state, vtkImageData* panorama)
 {
-  const vtkIBLRadianceImage image{ static_cast<float*>(panorama->GetScalarPointer()), panorama->GetDimensions()[0],
-    panorama->GetDimensions()[1], 1 };
   for (auto _ : state)
   {
-    benchmark::DoNotOptimize(vtkIBLMeanLuminance(image));
+    benchmark::DoNotOptimize(vtkIBLMeanLuminance(View(panorama)));
   }
 }
 
-void SampleTable(benchmark::State& state)
+void Harmonics(benchmark::State& state, vtkImageData* panorama, double roughness)
 {
   for (auto _ : state)
   {
-    benchmark::DoNotOptimize(vtkIBLMakeSampleTable(0.5, 256, 64, 512));
+    benchmark::DoNotOptimize(
+      vtkIBLSpectrum(View(panorama), vtkIBLSpectrum::RequiredOrder(roughness), OnThisThread).GetCoefficients().data());
   }
 }
+
+void Filter(benchmark::State& state, vtkImageData* panorama, double roughness, int faceSize)
+{
+  const vtkIBLSpectrum spectrum(View(panorama), vtkIBLSpectrum::MaximumOrder, OnThisThread);
+  std::vector<float> rgb(std::size_t(18) * faceSize * faceSize);
+  for (auto _ : state)
+  {
+    spectrum.Filter({ { roughness, 1.0 } }, faceSize, 0, rgb.data(), OnThisThread);
+    benchmark::DoNotOptimize(rgb.data());
+  }
+}
+
+/// What is counted: from pixels to the texels of all layers of the default ladder. Not inlined: a counter is turned on
+/// and off by its name.
+__attribute__((noinline)) double CountSpectrum(const vtkIBLRadianceImage& image)
+{
+  const vtkIBLSpectrum spectrum(image, vtkIBLSpectrum::RequiredOrder(vtkIBLLadder::FirstRoughness), OnThisThread);
+  double predictedError = 0;
+  const vtkIBLLadder ladder = vtkIBLChooseLadder(spectrum, 0.02, 0.1, 1.0, predictedError, OnThisThread);
+  double sum = 0;
+  for (int layer = 1; layer <= ladder.GetNumberOfLayers(); ++layer)
+  {
+    const int n = ladder.GetLayerFaceSize(layer);
+    std::vector<float> rgb(std::size_t(18) * (n + 2) * (n + 2));
+    std::vector<std::uint16_t> texels(std::size_t(24) * n * n);
+    spectrum.Filter(ladder.GetLobes(layer), n, 1, rgb.data(), OnThisThread);
+    vtkIBLStoreLayer(rgb.data(), n, 1.0, true, texels.data(), OnThisThread);
+    sum += texels.front();
+  }
+  return sum;
+}
+}
+
+int RunSpectrum(const std::string& map)
+{
+  const Map loaded = LoadMap(map);
+  double sum = 0;
+  const Sample sample = Clock([&] { sum = CountSpectrum(View(loaded.Image)); });
+  std::printf("%s: %.2f ms on one thread (%g)\n", map.c_str(), 1e3 * sample.Wall, sum);
+  return 0;
 }
 
 void RunFunctions(Session& session)
@@ -89,7 +141,10 @@ void RunFunctions(Session& session)
     { "read the EXR file", [&](benchmark::State& state) { ReadFile(state, map.File); } },
     { "clean 1024 x 512", [&](benchmark::State& state) { Clean(state, map.Image); } },
     { "mean luminance", [&](benchmark::State& state) { MeanLuminance(state, map.Image); } },
-    { "sample table 512", SampleTable },
+    { "harmonics for roughness 0.1, 1 thread", [&](benchmark::State& state) { Harmonics(state, map.Image, 0.1); } },
+    { "harmonics for roughness 0.25, 1 thread", [&](benchmark::State& state) { Harmonics(state, map.Image, 0.25); } },
+    { "layer of roughness 0.1, 128^2, 1 thread", [&](benchmark::State& state) { Filter(state, map.Image, 0.1, 128); } },
+    { "layer of roughness 0.25, 64^2, 1 thread", [&](benchmark::State& state) { Filter(state, map.Image, 0.25, 64); } },
   };
   for (const auto& [name, function] : functions)
   {

@@ -22,7 +22,7 @@ void RunSize(Session& session, const Engine& engine, const std::string& panel, v
   row.Setting =
     faceSize > 0 ? std::to_string(faceSize) + "^2 faces" : std::to_string(width) + " x " + std::to_string(width / 2);
   run(); // warm-up
-  row.Samples = Repeat(run, session.Options.Repeat, session.Options.Quick ? 0.5 : 6);
+  row.Samples = Repeat(run, session.Options.Repeat, session.Options.Quick ? 0.5 : 3, 2);
   row.Default = true;
   session.Add(row);
 }

@@ -3,6 +3,8 @@
 // vtkIBLBenchmark: run time against error. One command runs everything and writes results.json, RESULTS.md and plots/.
 #include "Benchmark.h"
 
+#include "vtkIBLCache.h"
+
 #include <CLI/CLI.hpp>
 
 #include <vtkObject.h>
@@ -39,6 +41,7 @@ int Run(Session& session)
   Prepare(session);
   RunStages(session);
   RunFrames(session);
+  RunThreads(session);
   RunGrowth(session);
   RunFunctions(session);
   WriteJson(session);
@@ -64,13 +67,20 @@ int main(int argc, char* argv[])
   Session session;
   Options& options = session.Options;
   std::string firstFrame;
+  bool fromFile = false;
+  vtkIBLCache::SetEnabled(false); // what is timed is made
   CLI::App app("Run time against error of image-based lighting, with VTK's own and Filament's cmgen beside it.");
   app.add_flag("--quick", options.Quick, "one map, few directions and repetitions: a test, not a measurement");
   app.add_option("--output", options.Output, "folder for results.json, RESULTS.md and plots/");
   app.add_option("--maps", options.Maps, "studio lights of blender-data")->delimiter(',');
   CLI::Option* repeat = app.add_option("--repeat", options.Repeat, "runs behind a median")->check(CLI::Range(3, 1000));
-  app.add_option("--only", options.Only, "panels whose name starts so, e.g. layer or \"growth source\"");
-  app.add_option("--first-frame", firstFrame, "render one first frame of an engine and print its seconds");
+  app.add_option("--only", options.Only,
+    "panels whose name starts so, e.g. layer or \"growth source\"; spectrum: harmonics and layers once, "
+    "on one thread, and no report");
+  app.add_option("--first-frame", firstFrame,
+    "render one first frame of an engine and print its seconds and its hits in vtkIBL's cache");
+  app.add_flag(
+    "--from-file", fromFile, "with --first-frame: read the map in that frame, out of the cache if it is there");
   CLI11_PARSE(app, argc, argv);
   if (options.Maps.empty())
   {
@@ -85,7 +95,11 @@ int main(int argc, char* argv[])
   }
   try
   {
-    return firstFrame.empty() ? Run(session) : RunFirstFrame(firstFrame, options.Maps.front());
+    if (!firstFrame.empty())
+    {
+      return RunFirstFrame(firstFrame, options.Maps.front(), fromFile);
+    }
+    return options.Only == "spectrum" ? RunSpectrum(options.Maps.front()) : Run(session);
   }
   catch (const std::exception& error)
   {

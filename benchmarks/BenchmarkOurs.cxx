@@ -8,10 +8,10 @@
 #include "vtkIBLEnvironment.h"
 #include "vtkIBLGL.h"
 #include "vtkIBLIrradiance.h"
+#include "vtkIBLLadder.h"
 #include "vtkIBLLighting.h"
-#include "vtkIBLSampleTable.h"
-#include "vtkIBLShaderFunctions.h"
 #include "vtkIBLSpecularChain.h"
+#include "vtkIBLThreads.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -29,9 +29,42 @@ Cube ToCube(vtkImageData* image)
   return cube;
 }
 
-/// Builds `stage` again; what is left of it stands.
-Sample Rebuild(vtkIBLStage* stage, vtkOpenGLRenderWindow* window)
+constexpr int SpectralEngine = vtkIBLSpecularChain::Spectral;
+constexpr int SampledEngine = vtkIBLSpecularChain::Sampled;
+
+vtkSmartPointer<vtkIBLLighting> MakeLighting(vtkImageData* image, int engine, double setting)
 {
+  auto lighting = vtkSmartPointer<vtkIBLLighting>::New();
+  vtkNew<vtkIBLEnvironment> environment;
+  environment->SetInputData(image);
+  lighting->SetEnvironment(environment);
+  vtkIBLSpecularChain* chain = lighting->GetSpecularChain();
+  chain->SetEngine(engine);
+  if (engine == SpectralEngine)
+  {
+    chain->SetErrorTolerance(setting);
+  }
+  else
+  {
+    chain->SetNumberOfSamples(int(setting));
+  }
+  return lighting;
+}
+
+/// Brings `stage` up to date, its environment's pixels given anew: an environment keeps what was made of them. What is
+/// left of the stage is not clocked.
+Sample Rebuild(vtkIBLStage* stage, vtkIBLEnvironment* environment, vtkImageData* image, vtkOpenGLRenderWindow* window,
+  vtkIBLStage* left = nullptr)
+{
+  if (environment)
+  {
+    environment->SetInputData(image);
+    environment->Update();
+  }
+  if (left)
+  {
+    left->Update(window);
+  }
   stage->Modified();
   return Clock(
     [&]
@@ -43,83 +76,63 @@ Sample Rebuild(vtkIBLStage* stage, vtkOpenGLRenderWindow* window)
     });
 }
 
-vtkSmartPointer<vtkIBLLighting> MakeLighting(vtkImageData* image)
-{
-  auto lighting = vtkSmartPointer<vtkIBLLighting>::New();
-  vtkNew<vtkIBLEnvironment> environment;
-  environment->SetInputData(image);
-  lighting->SetEnvironment(environment);
-  return lighting;
-}
-
 /// All of it again, from pixels to textures. Programs stay compiled.
-Sample RebuildAll(vtkIBLLighting* lighting, vtkOpenGLRenderWindow* window)
+Sample RebuildAll(vtkIBLLighting* lighting, vtkImageData* image, vtkOpenGLRenderWindow* window,
+  const vtkIBLSceneNeeds& needs = vtkIBLSceneNeeds::Everything())
 {
-  lighting->GetCubeMap()->Modified();
-  lighting->GetIrradiance()->Modified();
-  lighting->GetSpecularChain()->Modified();
+  lighting->GetEnvironment()->SetInputData(image);
   lighting->GetBRDFTable()->Modified();
   return Clock(
     [&]
     {
-      if (!lighting->Update(window))
+      if (!lighting->Update(window, needs))
       {
         throw std::runtime_error("vtkIBLLighting made nothing");
       }
     });
 }
 
-long long CountFetches(vtkIBLLighting* lighting)
+vtkIBLSceneNeeds Mirrorless()
 {
-  vtkIBLSpecularChain* chain = lighting->GetSpecularChain();
-  long long fetches = 0;
-  for (int layer = 0; layer < vtkIBLSpecularChain::GetNumberOfLayers(); ++layer)
-  {
-    // The spectral engine samples the layer of 0.133 and sharper ones; that of 0.178 is its first.
-    if (chain->GetEngine() == vtkIBLSpecularChain::Spectral &&
-      vtkIBLSpecularChain::GetPerceptualRoughness(layer) > 0.15)
-    {
-      break;
-    }
-    const int size = chain->GetLayerFaceSize(layer);
-    const vtkIBLSampleTable table = vtkIBLMakeSampleTable(vtkIBLSpecularChain::GetPerceptualRoughness(layer),
-      lighting->GetCubeMap()->GetOutputFaceSize(), size, chain->GetNumberOfSamples());
-    fetches += 6LL * size * size * static_cast<long long>(table.Samples.size());
-  }
-  return fetches;
+  vtkIBLSceneNeeds needs;
+  needs.Irradiance = true;
+  needs.AddRoughness(0.1, 1.0);
+  return needs;
 }
 
 long long CountBytes(vtkIBLSpecularChain* chain)
 {
   long long bytes = 0;
-  for (int layer = 0; layer < vtkIBLSpecularChain::GetNumberOfLayers(); ++layer)
+  for (int layer = 1; layer <= chain->GetNumberOfLayers(); ++layer)
   {
-    bytes += 6LL * chain->GetLayerFaceSize(layer) * chain->GetLayerFaceSize(layer) * 8; // RGBA16F
+    bytes += chain->HasLayer(layer) * 6LL * chain->GetLayerFaceSize(layer) * chain->GetLayerFaceSize(layer) * 8;
   }
-  return bytes;
+  return bytes; // RGBA16F
 }
 
-/// As vtkIBLLayers.glsl reads two layers, one in each chain.
+/// As vtkIBLLayers.glsl reads two layers, one in each chain. From roughness 0.1 up: the mirror is not among them.
 std::vector<RGB> ReadLayers(
   vtkOpenGLRenderWindow* window, vtkIBLSpecularChain* chain, const std::vector<Vec3>& directions, double roughness)
 {
-  const double last = vtkIBLSpecularChain::GetNumberOfLayers() - 1;
-  const double layer =
-    std::clamp(double(vtkIBLCore::ShaderFunctions<double>().iblLayerFromPerceptualRoughness(roughness)), 0.0, last);
-  const double below = std::min(std::floor(layer), last - 1);
-  const double evenLevel = std::floor(0.5 * (below + 1));
-  const double oddLevel = std::floor(0.5 * below);
-  const double share = 2 * evenLevel == below ? layer - below : 1 - layer + below;
-  std::vector<RGB> even = ReadCubeMap(window, chain->GetEvenLayers().Id(), directions, evenLevel);
-  const std::vector<RGB> odd = ReadCubeMap(window, chain->GetOddLayers().Id(), directions, oddLevel);
-  for (std::size_t i = 0; i < even.size(); ++i)
+  vtkIBLLadder ladder;
+  ladder.FaceSize = chain->GetLayerFaceSize(1);
+  const double layer = ladder.GetLayer(roughness);
+  const int below = std::clamp(int(std::floor(layer)), 1, ladder.GetNumberOfLayers() - 1);
+  const auto read = [&](int i)
+  {
+    return ReadCubeMap(
+      window, (i % 2 ? chain->GetOddLayers() : chain->GetEvenLayers()).Id(), directions, vtkIBLLadder::GetLevel(i));
+  };
+  std::vector<RGB> values = read(below);
+  const std::vector<RGB> above = read(below + 1);
+  for (std::size_t i = 0; i < values.size(); ++i)
   {
     for (int k = 0; k < 3; ++k)
     {
-      even[i][k] = chain->GetStoredScale() * (even[i][k] + share * (odd[i][k] - even[i][k]));
+      values[i][k] = chain->GetStoredScale() * (values[i][k] + (layer - below) * (above[i][k] - values[i][k]));
     }
   }
-  return even;
+  return values;
 }
 
 /// As vtkIBLLighting.glsl reads the table: sqrt(NoV) across, outer texel centres on the domain's edges.
@@ -143,51 +156,104 @@ SplitSum ReadTable(vtkImageData* table, double NoV, double roughness)
 
 CubeWork MakeCube(vtkOpenGLRenderWindow* window, const Map& map, int faceSize)
 {
-  auto lighting = MakeLighting(map.Image);
+  auto lighting = MakeLighting(map.Image, SpectralEngine, 0.02);
   lighting->GetCubeMap()->SetFaceSize(faceSize);
+  lighting->GetCubeMap()->SetMipLevelsNeeded(false); // as the spectral engine has it
   lighting->GetCubeMap()->Update(window);
   CubeWork work;
   work.Result = ToCube(lighting->GetCubeMap()->ReadLevel(0));
-  work.Bytes = 128LL * work.Result.Size * work.Result.Size; // RGBA32F with mip levels
-  work.Run = [=] { return Rebuild(lighting->GetCubeMap(), window); };
+  work.Bytes = 96LL * work.Result.Size * work.Result.Size; // RGBA32F
+  work.Run = [=, image = map.Image]
+  { return Rebuild(lighting->GetCubeMap(), lighting->GetEnvironment(), image, window); };
   return work;
 }
 
-HarmonicsWork MakeHarmonics(vtkOpenGLRenderWindow* window, const Map& map)
+IrradianceWork MakeIrradianceMap(vtkOpenGLRenderWindow* window, const Map& map)
 {
-  auto lighting = MakeLighting(map.Image);
-  lighting->GetIrradiance()->Update(window);
-  HarmonicsWork work;
-  work.Irradiance = [=](Vec3 normal)
-  {
-    RGB rgb;
-    lighting->GetIrradiance()->GetIrradiance(&normal.x, rgb.data());
-    return rgb;
-  };
-  work.Fetches = map.Image->GetNumberOfPoints();
-  work.Bytes = 9 * 3 * sizeof(float);
-  work.Run = [=] { return Rebuild(lighting->GetIrradiance(), window); };
-  return work;
-}
-
-LayersWork MakeLayers(vtkOpenGLRenderWindow* window, int engine, const Map& map, int samples)
-{
-  auto lighting = MakeLighting(map.Image);
+  auto lighting = MakeLighting(map.Image, SpectralEngine, 0.02);
   vtkIBLSpecularChain* chain = lighting->GetSpecularChain();
-  chain->SetEngine(engine);
-  chain->SetNumberOfSamples(samples);
+  chain->SetNeededRoughness(1, 0);
+  chain->Update(window);
+  IrradianceWork work;
+  work.Read = [=](const std::vector<Vec3>& normals)
+  {
+    std::vector<RGB> values =
+      ReadCubeMap(window, lighting->GetSpecularChain()->GetIrradianceMap().Id(), normals, 0); // over pi
+    for (RGB& rgb : values)
+    {
+      std::transform(rgb.begin(), rgb.end(), rgb.begin(),
+        [&](double x) { return vtkIBLReference::Pi * lighting->GetSpecularChain()->GetStoredScale() * x; });
+    }
+    return values;
+  };
+  work.Bytes = chain->GetLastBuildTexels() * 8; // RGBA16F
+  work.Run = [=, image = map.Image]
+  { return Rebuild(lighting->GetSpecularChain(), lighting->GetEnvironment(), image, window); };
+  return work;
+}
+
+IrradianceWork MakeHarmonics(vtkOpenGLRenderWindow* window, const Map& map, int order, bool keepBrightTexels)
+{
+  auto irradiance = vtkSmartPointer<vtkIBLIrradiance>::New();
+  vtkNew<vtkIBLEnvironment> environment;
+  environment->SetInputData(map.Image);
+  irradiance->SetEnvironment(environment);
+  irradiance->SetOrder(order);
+  irradiance->SetKeepBrightTexels(keepBrightTexels);
+  irradiance->Update(window);
+  IrradianceWork work;
+  work.Read = [=](const std::vector<Vec3>& normals)
+  {
+    std::vector<RGB> values(normals.size());
+    for (std::size_t i = 0; i < normals.size(); ++i)
+    {
+      irradiance->GetIrradiance(&normals[i].x, values[i].data());
+    }
+    return values;
+  };
+  work.Bytes = (irradiance->GetNumberOfCoefficients() * 3LL + irradiance->GetNumberOfBrightTexels() * 7LL) * 4;
+  work.Run = [=, image = map.Image] { return Rebuild(irradiance, irradiance->GetEnvironment(), image, window); };
+  return work;
+}
+
+LayersWork MakeLayers(vtkOpenGLRenderWindow* window, int engine, const Map& map, double setting)
+{
+  auto lighting = MakeLighting(map.Image, engine, setting);
+  vtkIBLSpecularChain* chain = lighting->GetSpecularChain();
+  chain->IrradianceNeededOff();
   chain->Update(window);
   LayersWork work;
-  for (int layer = 1; layer < vtkIBLSpecularChain::GetNumberOfLayers(); ++layer)
+  for (int layer = 1; engine == SampledEngine && layer <= chain->GetNumberOfLayers(); ++layer)
   {
-    work.Layers.push_back({ vtkIBLSpecularChain::GetPerceptualRoughness(layer), ToCube(chain->ReadLayer(layer)) });
+    work.Layers.push_back({ chain->GetPerceptualRoughness(layer), ToCube(chain->ReadLayer(layer)) });
   }
   work.Read = [=](const std::vector<Vec3>& directions, double roughness)
   { return ReadLayers(window, lighting->GetSpecularChain(), directions, roughness); };
-  work.Fetches = CountFetches(lighting);
+  work.Fetches = engine == SampledEngine ? chain->GetNumberOfReads() : -1;
   work.Bytes = CountBytes(chain);
-  work.Run = [=] { return Rebuild(lighting->GetSpecularChain(), window); };
+  work.Run = [=, image = map.Image]
+  {
+    return Rebuild(lighting->GetSpecularChain(), lighting->GetEnvironment(), image, window,
+      engine == SampledEngine ? lighting->GetCubeMap() : nullptr);
+  };
   return work;
+}
+
+/// Layers are stored as what is read best; this is what they are made of.
+std::vector<Layer> MakeFilter(const Map& map)
+{
+  const vtkIBLRadianceImage image{ static_cast<float*>(map.Image->GetScalarPointer()), map.Image->GetDimensions()[0],
+    map.Image->GetDimensions()[1], 1 };
+  const vtkIBLSpectrum spectrum(image, vtkIBLSpectrum::MaximumOrder, vtkIBLRunOnThreads);
+  std::vector<Layer> layers;
+  for (double roughness : { 0.1, 0.2, 0.3, 0.4, 0.6, 1.0 })
+  {
+    constexpr int n = 64;
+    Layer layer{ roughness, { n, std::vector<float>(std::size_t(18) * n * n) } };
+    spectrum.Filter({ { roughness, 1.0 } }, n, 0, layer.Texels.Texels.data(), vtkIBLRunOnThreads);
+    layers.push_back(std::move(layer));
+  }
+  return layers;
 }
 
 TableWork MakeTable(vtkOpenGLRenderWindow* window, int samples)
@@ -199,43 +265,42 @@ TableWork MakeTable(vtkOpenGLRenderWindow* window, int samples)
   TableWork work;
   work.Read = [image](double NoV, double roughness) { return ReadTable(image, NoV, roughness); };
   work.Bytes = 4LL * vtkIBLBRDFTable::Size * vtkIBLBRDFTable::Size; // RG16
-  work.Run = [=] { return Rebuild(table, window); };
+  work.Run = [=] { return Rebuild(table, nullptr, nullptr, window); };
   return work;
 }
 
-Work MakeBake(vtkOpenGLRenderWindow* window, int engine, const Map& map, int samples)
+Work MakeBake(vtkOpenGLRenderWindow* window, int engine, const Map& map, double setting, const vtkIBLSceneNeeds& needs)
 {
-  auto lighting = MakeLighting(map.Image);
-  lighting->GetSpecularChain()->SetEngine(engine);
-  lighting->GetSpecularChain()->SetNumberOfSamples(samples);
-  lighting->Update(window);
+  auto lighting = MakeLighting(map.Image, engine, setting);
+  lighting->Update(window, needs);
   Work work;
-  work.Fetches = CountFetches(lighting);
-  const int size = lighting->GetCubeMap()->GetOutputFaceSize();
-  work.Bytes = 128LL * size * size + CountBytes(lighting->GetSpecularChain()) +
-    4LL * vtkIBLBRDFTable::Size * vtkIBLBRDFTable::Size;
-  work.Run = [=] { return RebuildAll(lighting, window); };
+  const long long size = lighting->GetCubeMap()->GetOutputFaceSize();
+  work.Fetches = engine == SampledEngine ? lighting->GetSpecularChain()->GetNumberOfReads() : -1;
+  work.Bytes = (lighting->GetCubeMap()->GetNumberOfLevels() > 1 ? 128 : 96) * size * size +
+    8 * lighting->GetSpecularChain()->GetLastBuildTexels() + 4LL * vtkIBLBRDFTable::Size * vtkIBLBRDFTable::Size;
+  work.Run = [=, image = map.Image] { return RebuildAll(lighting, image, window, needs); };
   return work;
 }
 
-std::function<Sample()> MakeGrowth(vtkOpenGLRenderWindow* window, int engine, vtkImageData* panorama, int faceSize)
+std::function<Sample()> MakeGrowth(
+  vtkOpenGLRenderWindow* window, int engine, double setting, vtkSmartPointer<vtkImageData> panorama, int faceSize)
 {
-  auto lighting = MakeLighting(panorama);
+  auto lighting = MakeLighting(panorama, engine, setting);
   lighting->GetCubeMap()->SetFaceSize(faceSize);
-  lighting->GetSpecularChain()->SetEngine(engine);
-  if (faceSize > 0)
-  {
-    lighting->GetSpecularChain()->SetFaceSize(faceSize);
-  }
-  return [=] { return RebuildAll(lighting, window); };
+  lighting->GetSpecularChain()->SetFaceSize(faceSize);
+  return [=] { return RebuildAll(lighting, panorama, window); };
 }
+
 /// What both engines can.
 void AddChain(vtkOpenGLRenderWindow* window, int chainEngine, Engine& engine)
 {
-  engine.MakeLayers = [=](const Map& map, int samples) { return MakeLayers(window, chainEngine, map, samples); };
-  engine.MakeBake = [=](const Map& map, int samples) { return MakeBake(window, chainEngine, map, samples); };
-  engine.MakeGrowth = [=](vtkImageData* panorama, int faceSize)
-  { return MakeGrowth(window, chainEngine, panorama, faceSize); };
+  engine.MakeLayers = [=](const Map& map, double setting) { return MakeLayers(window, chainEngine, map, setting); };
+  engine.MakeBake = [=](const Map& map, double setting)
+  { return MakeBake(window, chainEngine, map, setting, vtkIBLSceneNeeds::Everything()); };
+  engine.MakeMirrorlessBake = [=](const Map& map, double setting)
+  { return MakeBake(window, chainEngine, map, setting, Mirrorless()); };
+  engine.MakeGrowth = [=, setting = engine.Settings.front()](vtkImageData* panorama, int faceSize)
+  { return MakeGrowth(window, chainEngine, setting, panorama, faceSize); };
   engine.LargestGrowthSource = 8192;
   engine.LargestGrowthFace = 1024;
 }
@@ -246,15 +311,27 @@ Engine MakeSpectral(Session& session)
   vtkOpenGLRenderWindow* window = session.Window;
   Engine engine;
   engine.Name = "vtkIBL";
-  engine.Samples = session.Options.Quick ? std::vector<int>{ 512 } : std::vector<int>{ 512, 64, 2048 };
+  engine.Settings =
+    session.Options.Quick ? std::vector<double>{ 0.02, 0.05 } : std::vector<double>{ 0.02, 0.05, 0.01, 0.005 };
   engine.TableSamples =
     session.Options.Quick ? std::vector<int>{ 0, 64 } : std::vector<int>{ 0, 16, 64, 256, 1024, 4096 };
-  engine.LayerBound = 0.03;
+  engine.LayerBound = 0.002;
+  engine.ReadBound = 0.02;
   engine.TableBound = 0.005;
   engine.MakeCube = [=](const Map& map, int faceSize) { return MakeCube(window, map, faceSize); };
-  engine.MakeHarmonics = [=](const Map& map) { return MakeHarmonics(window, map); };
+  engine.Irradiance = { { "map of 32^2 faces", [=](const Map& map) { return MakeIrradianceMap(window, map); } } };
+  for (int order : { 2, 4, 8 })
+  {
+    for (bool keep : { false, true })
+    {
+      engine.Irradiance.push_back(
+        { std::to_string((order + 1) * (order + 1)) + (keep ? " coefficients and bright texels" : " coefficients"),
+          [=](const Map& map) { return MakeHarmonics(window, map, order, keep); } });
+    }
+  }
+  engine.MakeFilter = MakeFilter;
   engine.MakeTable = [=](int samples) { return MakeTable(window, samples); };
-  AddChain(window, vtkIBLSpecularChain::Spectral, engine);
+  AddChain(window, SpectralEngine, engine);
   return engine;
 }
 
@@ -262,10 +339,45 @@ Engine MakeSampled(Session& session)
 {
   Engine engine;
   engine.Name = "vtkIBL sampled";
-  engine.Samples =
-    session.Options.Quick ? std::vector<int>{ 512, 64 } : std::vector<int>{ 512, 64, 128, 256, 1024, 4096 };
-  engine.LayerBound = 0.07;
-  AddChain(session.Window, vtkIBLSpecularChain::Sampled, engine);
+  engine.Settings = session.Options.Quick ? std::vector<double>{ 64 } : std::vector<double>{ 64, 32, 128, 512 };
+  engine.LayerBound = 0.03;
+  engine.ReadBound = 0.05;
+  AddChain(session.Window, SampledEngine, engine);
   return engine;
+}
+
+/// The spectral engine by the number of threads; the first map.
+void RunThreads(Session& session)
+{
+  if (!session.Wants("threads"))
+  {
+    return;
+  }
+  vtkOpenGLRenderWindow* window = session.Window;
+  const Map& map = session.Maps.front();
+  auto lighting = MakeLighting(map.Image, SpectralEngine, 0.02);
+  auto rough = MakeLighting(map.Image, SpectralEngine, 0.02);
+  rough->GetSpecularChain()->SetNeededRoughness(0.25, 1.0);
+  rough->GetSpecularChain()->IrradianceNeededOff();
+  const std::pair<const char*, std::function<Sample()>> works[] = {
+    { "whole bake", [&] { return RebuildAll(lighting, map.Image, window); } },
+    { "bake, no mirror", [&] { return RebuildAll(lighting, map.Image, window, Mirrorless()); } },
+    { "layers, roughness 0.25 up",
+      [&] { return Rebuild(rough->GetSpecularChain(), rough->GetEnvironment(), map.Image, window); } },
+  };
+  for (int threads : { 1, 2 })
+  {
+    vtkSMPTools::Initialize(threads);
+    for (const auto& [name, run] : works)
+    {
+      Row row(
+        "threads", "vtkIBL", name + (threads == 1 ? std::string(", 1 thread") : std::string(", 2 threads")), map.Name);
+      run(); // warm-up
+      row.Samples = Repeat(run, session.Options.Repeat, 6);
+      row.Default = true;
+      session.Add(row);
+    }
+  }
+  vtkSMPTools::Initialize(0);
 }
 }

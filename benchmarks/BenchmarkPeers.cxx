@@ -192,12 +192,20 @@ CubeWork MakeVTKCube(const Map& map, int faceSize)
   return work;
 }
 
-HarmonicsWork MakeVTKHarmonics(const Map& map)
+IrradianceWork MakeVTKHarmonics(const Map& map)
 {
   auto light = std::make_shared<VTKLight>(map.Image);
   light->LoadHarmonics();
-  HarmonicsWork work;
-  work.Irradiance = [=](Vec3 normal) { return light->GetIrradiance(normal); };
+  IrradianceWork work;
+  work.Read = [=](const std::vector<Vec3>& normals)
+  {
+    std::vector<RGB> irradiance;
+    for (const Vec3& normal : normals)
+    {
+      irradiance.push_back(light->GetIrradiance(normal));
+    }
+    return irradiance;
+  };
   work.Bytes = 9 * 3 * sizeof(float);
   work.Run = [=] { return light->LoadHarmonics(); };
   return work;
@@ -268,20 +276,20 @@ Engine MakeVTK(Session& session)
 {
   Engine engine;
   engine.Name = "VTK";
-  engine.Samples = session.Options.Quick ? std::vector<int>{ 64 } : std::vector<int>{ VTKSamples, 32, 128 };
+  engine.Settings = session.Options.Quick ? std::vector<double>{ 64 } : std::vector<double>{ VTKSamples, 32, 128 };
   engine.TableSamples = { 1024 };
   engine.LayerBound = 0.35;
   engine.TableBound = 0.2;
   engine.MakeCube = MakeVTKCube;
-  engine.MakeHarmonics = MakeVTKHarmonics;
-  engine.MakeLayers = MakeVTKLayers;
+  engine.Irradiance = { { "9 coefficients", MakeVTKHarmonics } };
+  engine.MakeLayers = [](const Map& map, double samples) { return MakeVTKLayers(map, int(samples)); };
   engine.MakeTable = [&session](int) { return MakeVTKTable(session.Maps.front().Image); };
-  engine.MakeBake = [](const Map& map, int samples)
+  engine.MakeBake = [](const Map& map, double samples)
   {
     auto light = std::make_shared<VTKLight>(map.Image);
     BakeVTK(*light, 16); // warm-up: its shaders are compiled
     Work work;
-    work.Run = [=] { return BakeVTK(*light, samples); };
+    work.Run = [=] { return BakeVTK(*light, int(samples)); };
     return work;
   };
   engine.MakeGrowth = [](vtkImageData* panorama, int faceSize) -> std::function<Sample()>

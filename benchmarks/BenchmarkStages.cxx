@@ -25,11 +25,6 @@ std::vector<Sample> Time(const Session& session, const Map& map, const Work& wor
   return Repeat(work.Run, std::max(count, 1), Budget, 1);
 }
 
-std::string Samples(int count)
-{
-  return count > 0 ? std::to_string(count) + " samples" : "default";
-}
-
 /// Texels of a cube, spread by a stride that shares no factor with its edge.
 std::vector<std::size_t> SpreadTexels(int size, int count)
 {
@@ -93,19 +88,20 @@ void RunCube(Session& session, const Engine& engine, const Map& map)
   session.Add(row);
 }
 
-void RunHarmonics(Session& session, const Engine& engine, const Map& map)
+void RunIrradiance(Session& session, const Engine& engine, const Map& map)
 {
-  const HarmonicsWork work = engine.MakeHarmonics(map);
   const std::vector<Vec3> normals = SpreadDirections(session.Options.Directions);
-  std::vector<RGB> values;
-  std::transform(normals.begin(), normals.end(), std::back_inserter(values), work.Irradiance);
-  Row row("harmonics", engine.Name, "9 coefficients", map.Name);
-  row.Error = Judge(values, GetIrradianceTruth(map, normals));
-  row.Samples = Time(session, map, work);
-  row.Fetches = work.Fetches;
-  row.Bytes = work.Bytes;
-  row.Default = true;
-  session.Add(row);
+  for (const IrradianceKind& kind : engine.Irradiance)
+  {
+    const IrradianceWork work = kind.Make(map);
+    Row row("irradiance", engine.Name, kind.Setting, map.Name);
+    row.Error = Judge(work.Read(normals), GetIrradianceTruth(map, normals));
+    row.Samples = Time(session, map, work);
+    row.Fetches = work.Fetches;
+    row.Bytes = work.Bytes;
+    row.Default = &kind == &engine.Irradiance.front();
+    session.Add(row);
+  }
 }
 
 /// What nine exact coefficients leave: the floor of that panel.
@@ -130,67 +126,73 @@ void RunExactHarmonics(Session& session, const Map& map)
     }
     values.push_back({ std::max(rgb[0], 0.0), std::max(rgb[1], 0.0), std::max(rgb[2], 0.0) });
   }
-  Row row("harmonics", "exact", "9 coefficients", map.Name);
+  Row row("irradiance", "exact", "9 coefficients", map.Name);
   row.Error = Judge(values, GetIrradianceTruth(map, normals));
   row.Note = "the floor of nine coefficients: the reference's own";
   session.Add(row);
 }
 
+void AddFilterRows(Session& session, const Engine& engine, const Map& map, double setting,
+  const std::vector<Layer>& layers, double& mean)
+{
+  for (const Layer& layer : layers)
+  {
+    char panel[48];
+    std::snprintf(panel, sizeof(panel), "filter %.3f", layer.PerceptualRoughness);
+    Row row(panel, engine.Name, FormatSetting(setting), map.Name);
+    row.ErrorAsMade = JudgeLayer(session, map, layer);
+    row.Default = setting == engine.Settings.front();
+    mean += row.ErrorAsMade->RelativeL1 / double(layers.size());
+    session.Add(row);
+  }
+}
+
 /// All layer panels and the bake: what is read at each judged roughness, and what the filter itself made.
-void RunLayers(Session& session, const Engine& engine, const Map& map, int samples)
+void RunLayers(Session& session, const Engine& engine, const Map& map, double setting)
 {
   const std::vector<Vec3> directions = SpreadDirections(session.Options.Directions);
-  const LayersWork work = engine.MakeLayers(map, samples);
-  const bool isDefault = samples == engine.Samples.front();
+  const LayersWork work = engine.MakeLayers(map, setting);
+  const bool isDefault = setting == engine.Settings.front();
+  double asMade = 0;
+  const std::vector<Layer> filtered = engine.MakeFilter && isDefault ? engine.MakeFilter(map) : work.Layers;
+  AddFilterRows(session, engine, map, setting, filtered, asMade);
 
-  std::vector<std::optional<Error>> asMade;
-  double meanRatio = 0;
-  for (const Layer& layer : work.Layers)
-  {
-    asMade.push_back(JudgeLayer(session, map, layer));
-    meanRatio += asMade.back()->RelativeL1 / double(work.Layers.size());
-  }
   Error whole;
-  std::vector<Error> asRead;
+  // One time for all layers: no engine makes one without the others in a whole bake.
+  const std::vector<Sample> time = Time(session, map, work);
   for (double roughness : JudgedRoughness)
   {
-    asRead.push_back(Judge(work.Read(directions, roughness), GetPrefilteredTruth(map, directions, roughness)));
-    whole.RelativeL1 += asRead.back().RelativeL1 / double(JudgedRoughness.size());
-    whole.RelativeRMSE += asRead.back().RelativeRMSE / double(JudgedRoughness.size());
-  }
-  // One time for all layers: no engine makes one without the others.
-  const std::vector<Sample> time = Time(session, map, work);
-  for (std::size_t i = 0; i < JudgedRoughness.size(); ++i)
-  {
-    Row row(LayerPanel(JudgedRoughness[i]), engine.Name, Samples(samples), map.Name);
+    Row row(LayerPanel(roughness), engine.Name, FormatSetting(setting), map.Name);
     row.Samples = time;
-    row.Error = asRead[i];
+    row.Error = Judge(work.Read(directions, roughness), GetPrefilteredTruth(map, directions, roughness));
     row.Fetches = work.Fetches;
     row.Bytes = work.Bytes;
     row.Default = isDefault;
     session.Add(row);
+    whole.RelativeL1 += row.Error->RelativeL1 / double(JudgedRoughness.size());
+    whole.RelativeRMSE += row.Error->RelativeRMSE / double(JudgedRoughness.size());
   }
-  for (std::size_t i = 0; i < work.Layers.size(); ++i)
+  const auto runBake = [&](const Work& bake, const std::string& what, bool isDefaultRow)
   {
-    char panel[48];
-    std::snprintf(panel, sizeof(panel), "filter %.3f", work.Layers[i].PerceptualRoughness);
-    Row row(panel, engine.Name, Samples(samples), map.Name);
-    row.Samples = time;
-    row.ErrorAsMade = asMade[i];
-    row.Default = isDefault;
-    session.Add(row);
-  }
-  if (engine.MakeBake && session.Wants("bake"))
-  {
-    const Work bake = engine.MakeBake(map, samples);
-    Row row("bake", engine.Name, Samples(samples), map.Name);
+    Row row("bake", engine.Name, FormatSetting(setting) + what, map.Name);
     row.Error = whole;
-    row.ErrorAsMade = Error{ meanRatio, 0 };
+    if (!filtered.empty())
+    {
+      row.ErrorAsMade = Error{ asMade, 0 };
+    }
     row.Samples = Time(session, map, bake);
     row.Fetches = bake.Fetches;
     row.Bytes = bake.Bytes;
-    row.Default = isDefault;
+    row.Default = isDefaultRow;
     session.Add(row);
+  };
+  if (engine.MakeBake && session.Wants("bake"))
+  {
+    runBake(engine.MakeBake(map, setting), "", isDefault);
+    if (engine.MakeMirrorlessBake && isDefault)
+    {
+      runBake(engine.MakeMirrorlessBake(map, setting), ", no mirror", false);
+    }
   }
 }
 
@@ -229,7 +231,7 @@ void RunTable(Session& session, const Engine& engine)
   for (int samples : engine.TableSamples)
   {
     const TableWork work = engine.MakeTable(samples);
-    Row row("table", engine.Name, Samples(samples), "");
+    Row row("table", engine.Name, samples > 0 ? FormatSetting(samples) : "constant", "");
     row.Error = JudgeTable(work, reference::Geometry::SmithCorrelated);
     const Error own = JudgeTable(work, reference::Geometry::SchlickSmith);
     if (own.RelativeL1 < row.Error->RelativeL1)
@@ -256,7 +258,7 @@ void RunStages(Session& session)
   }
   for (const Map& map : session.Maps)
   {
-    if (session.Wants("harmonics"))
+    if (session.Wants("irradiance"))
     {
       RunExactHarmonics(session, map);
     }
@@ -266,18 +268,18 @@ void RunStages(Session& session)
       {
         RunCube(session, engine, map);
       }
-      if (engine.MakeHarmonics && session.Wants("harmonics"))
+      if (session.Wants("irradiance"))
       {
-        RunHarmonics(session, engine, map);
+        RunIrradiance(session, engine, map);
       }
       const bool layers = session.Wants("bake") || session.Wants("filter") ||
         std::any_of(JudgedRoughness.begin(), JudgedRoughness.end(),
           [&](double roughness) { return session.Wants(LayerPanel(roughness)); });
-      for (int samples : engine.Samples)
+      for (double setting : engine.Settings)
       {
         if (engine.MakeLayers && layers)
         {
-          RunLayers(session, engine, map, samples);
+          RunLayers(session, engine, map, setting);
         }
       }
     }

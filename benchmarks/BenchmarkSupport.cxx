@@ -21,12 +21,12 @@ namespace reference = vtkIBLReference;
 
 namespace vtkIBLBenchmark
 {
-const std::vector<double> JudgedRoughness = { 0.1, 0.2, 0.4, 0.6, 0.8, 1.0 };
+const std::vector<double> JudgedRoughness = { 0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0 };
 
 std::string LayerPanel(double perceptualRoughness)
 {
   char text[32];
-  std::snprintf(text, sizeof(text), "layer %.1f", perceptualRoughness);
+  std::snprintf(text, sizeof(text), "layer %.2f", perceptualRoughness);
   return text;
 }
 
@@ -251,6 +251,13 @@ std::vector<RGB> GetIrradianceTruth(const Map& map, const std::vector<Vec3>& dir
   return reference::Cached<RGB>(
     "benchmark irradiance " + reference::KeyOf(map.Reference) + reference::KeyOf(directions),
     [&] { return reference::IrradianceAll(map.Reference, directions); });
+}
+
+std::string FormatSetting(double setting)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), setting < 1 ? "tolerance %g" : "%g samples", setting);
+  return text;
 }
 
 RGB Cube::At(int face, int i, int j) const

@@ -280,7 +280,7 @@ void WritePlots(Session& session)
   const std::string folder = session.Options.Output + "/plots";
   std::filesystem::create_directories(folder);
   const std::pair<const char*, const char*> stages[6] = { { "cube", "Cube map, 256^2 faces" },
-    { "harmonics", "Irradiance, 9 coefficients" }, { "table", "BRDF table" }, { "bake", "Whole bake" },
+    { "irradiance", "Irradiance" }, { "table", "BRDF table" }, { "bake", "Whole bake" },
     { "first frame", "First frame (picture's error)" }, { "steady frame", "Steady frame (picture's error)" } };
   {
     Figure figure(3, 2);
@@ -292,11 +292,11 @@ void WritePlots(Session& session)
     figure.Write(folder + "/stages");
   }
   {
-    Figure figure(3, 2);
-    for (int i = 0; i < 6; ++i)
+    Figure figure(4, 2);
+    for (int i = 0; i < 8; ++i)
     {
       const std::string panel = LayerPanel(JudgedRoughness[i]);
-      FillChart(figure.At(i % 3, i / 3), "Roughness " + panel.substr(6) + ", as read", GetErrorCurves(session, panel),
+      FillChart(figure.At(i % 4, i / 4), "Roughness " + panel.substr(6) + ", as read", GetErrorCurves(session, panel),
         TimeTitle, ErrorTitle, false, i == 0);
     }
     figure.Write(folder + "/layers");

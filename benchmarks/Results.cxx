@@ -185,8 +185,8 @@ std::string CheckSchema(const std::string& fileName)
   }
   if (json.value("only", std::string()).empty())
   {
-    for (const char* panel : { "cube", "harmonics", "layer 0.1", "layer 1.0", "table", "bake", "first frame",
-           "steady frame", "growth source", "growth face", "function" })
+    for (const char* panel : { "cube", "irradiance", "layer 0.10", "layer 1.00", "table", "bake", "threads",
+           "first frame", "steady frame", "growth source", "growth face", "function" })
     {
       if (panels.count(panel) == 0)
       {

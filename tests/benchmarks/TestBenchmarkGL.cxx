@@ -49,11 +49,11 @@ TEST_F(TestBenchmarkGL, QuickFormLeavesItsFigures)
     }
   }
   ASSERT_TRUE(errors.count("vtkIBL") && errors.count("vtkIBL sampled") && errors.count("VTK"));
-  EXPECT_LT(errors["vtkIBL"], errors["VTK"]); // else the project has lost its point
+  EXPECT_LT(errors["vtkIBL"], 0.1 * errors["VTK"]); // else the project has lost its point
 
   const std::string report = ReadText(output + "/RESULTS.md");
-  for (const char* heading : { "## 1. Stages", "## 2. Whole bake", "## 3. Steady", "## 4. Cost growth", "## 6. Others",
-         "## Where we are behind", "Repeat: `" })
+  for (const char* heading : { "## Targets", "## 1. Stages", "## 2. Whole bake", "## 3. Steady", "## 4. Cost growth",
+         "## 6. Others", "## Where we are behind", "Repeat: `" })
   {
     EXPECT_NE(report.find(heading), std::string::npos) << heading;
   }
