@@ -114,8 +114,8 @@ long long CountBytes(vtkIBLSpecularChain* chain)
 std::vector<RGB> ReadLayers(
   vtkOpenGLRenderWindow* window, vtkIBLSpecularChain* chain, const std::vector<Vec3>& directions, double roughness)
 {
-  vtkIBLLadder ladder;
-  ladder.FaceSize = chain->GetLayerFaceSize(1);
+  vtkIBLLadder ladder(chain->GetLayerFaceSize(1));
+  ladder.EvenFaceSize = chain->GetLayerFaceSize(2);
   const double layer = ladder.GetLayer(roughness);
   const int below = std::clamp(int(std::floor(layer)), 1, ladder.GetNumberOfLayers() - 1);
   const auto read = [&](int i)
