@@ -60,7 +60,8 @@ std::string GetHDRI(const std::string& name);
 /// The same as an OpenEXR file, half floats, ZIP.
 void WriteEXR(const std::filesystem::path& path, vtkImageData* panorama);
 
-/// While this lives, vtkIBLCache has a directory of its own on disk, and nothing in it or in memory at first.
+/// While this lives, vtkIBLCache has a directory of its own on disk, and nothing in it or in memory at first. Make it
+/// before the environments of a test: they may write to it as long as they live.
 class OwnCache
 {
 public:

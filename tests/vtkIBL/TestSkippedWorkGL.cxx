@@ -391,8 +391,9 @@ TEST_F(TestSkippedWorkGL, AnotherWindowReadsNothing)
   OwnCache cache;
   const auto file = cache.GetFolder() / "sky.exr";
   WriteEXR(file, MakePanorama(128, Sky));
-  this->Environment->SetFileName(file.c_str());
-  Scene scene(this->Window, this->Environment);
+  vtkNew<vtkIBLEnvironment> first;
+  first->SetFileName(file.c_str());
+  Scene scene(this->Window, first);
   scene.AddSphere(0.0);
   scene.AddSphere(0.5);
   const Counts onGPU = { { "cube map", 1 }, { "layers", 6 }, { "irradiance map", 1 }, { "BRDF table", 1 } };
@@ -404,7 +405,7 @@ TEST_F(TestSkippedWorkGL, AnotherWindowReadsNothing)
   vtkNew<vtkIBLEnvironment> same;
   same->SetFileName(file.c_str());
   const vtkTypeInt64 hits = vtkIBLCache::GetNumberOfMemoryHits();
-  for (vtkIBLEnvironment* environment : { this->Environment.Get(), same.Get() })
+  for (vtkIBLEnvironment* environment : { first.Get(), same.Get() })
   {
     vtkNew<vtkIBLOffscreenWindow> window;
     window->SetSize(64, 64);
