@@ -338,7 +338,7 @@ void WriteGrowthTable(std::ostream& out, const Session& session, const std::stri
 // By hand: valgrind takes half a minute, and no clock can be trusted in it. Count again when core/vtkIBLSpectrum
 // changes.
 const char* const InstructionsText =
-  R"(619 million for courtyard, with AVX2, noted by hand from
+  R"(569 million for courtyard, with AVX2, noted by hand from
 
     valgrind --tool=callgrind --toggle-collect='vtkIBLBenchmark::*CountSpectrum*' \
       build/release/bin/vtkIBLBenchmark --only spectrum --maps courtyard)";
