@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIBLLadder.h"
 
+#include "vtkIBLLamps.h"
 #include "vtkIBLLegendre.h"
 #include "vtkIBLShaderFunctions.h"
 #include "vtkIBLSimd.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <numeric>
 
 namespace
@@ -179,28 +181,28 @@ double PredictErrorAt(const Statistics& light, const vtkIBLLadder& ladder, int b
     double integral = 0.0;
     double error = 0.0;
     const double alpha = roughness * roughness;
-    const auto kernel = [](double r, double oneMinusT)
+    std::vector<vtkIBLLamps::Kernel> kernels;
+    std::transform(lobes.begin(), lobes.end(), std::back_inserter(kernels), vtkIBLLamps::MakeKernel);
+    const vtkIBLLamps::Kernel exact = vtkIBLLamps::MakeKernel({ roughness, 1.0 });
+    const auto evaluate = [](const vtkIBLLamps::Kernel& kernel, double oneMinusT)
     {
-      const double alpha2 = r * r * r * r;
-      const double k = (1.0 - alpha2) / (1.0 + alpha2);
-      const double oneMinusK = 1.0 - k;
-      const double w = oneMinusK + k * oneMinusT;
-      const double norm = k < 0.01 ? 0.5 : (std::log(oneMinusK) + k / oneMinusK) / (k * k);
-      return (1.0 - oneMinusT) / (w * w * norm);
+      const double w = kernel.OneMinusK + kernel.K * oneMinusT;
+      return kernel.Scale * (1.0 - oneMinusT) / (w * w);
     };
     constexpr int steps = 64;
     for (int i = 0; i < steps; ++i)
     {
       const double x = std::pow(1.0 + 1.0 / (alpha * alpha), (i + 0.5) / steps) - 1.0; // 0 .. 1/alpha^2
       const double oneMinusT = x * alpha * alpha;
-      const double weight = (x + 1.0);
-      double sum = -kernel(roughness, oneMinusT);
-      for (const vtkIBLLobe& lobe : lobes)
+      const double weight = x + 1.0;
+      const double wanted = evaluate(exact, oneMinusT);
+      double read = 0.0;
+      for (const vtkIBLLamps::Kernel& kernel : kernels)
       {
-        sum += lobe.Weight * kernel(lobe.PerceptualRoughness, oneMinusT);
+        read += evaluate(kernel, oneMinusT);
       }
-      error += weight * std::abs(sum);
-      integral += weight * kernel(roughness, oneMinusT);
+      error += weight * std::abs(read - wanted);
+      integral += weight * wanted;
     }
     // Reading it bilinearly: texels against the lobe's width.
     const double width = area / (2.0 * alpha * alpha);

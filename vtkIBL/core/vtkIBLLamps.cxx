@@ -20,16 +20,6 @@ using Kernel = vtkIBLLamps::Kernel;
 using Light = vtkIBLLamps::Light;
 using Lamp = vtkIBLLamps::Lamp;
 
-Kernel MakeKernel(const vtkIBLLobe& lobe)
-{
-  const double alpha2 = std::pow(lobe.PerceptualRoughness, 4.0);
-  const double k = (1.0 - alpha2) / (1.0 + alpha2);
-  const double oneMinusK = 2.0 * alpha2 / (1.0 + alpha2);
-  const double norm = // of t / (1 - k t)^2 over [0, 1]
-    k < 0.01 ? 0.5 * (1.0 + 4.0 / 3.0 * k) : (std::log(oneMinusK) + k / oneMinusK) / (k * k);
-  return { float(k), float(oneMinusK), float(lobe.Weight / (2.0 * Pi * norm)) };
-}
-
 std::vector<Lamp> FindLamps(std::vector<vtkIBLBrightTexel> texels)
 {
   const auto power = [](const vtkIBLBrightTexel& texel)
@@ -125,6 +115,16 @@ VTKIBL_WIDE void AddLamps(const std::vector<Lamp>& lamps, const std::vector<Kern
     }
   }
 }
+}
+
+vtkIBLLamps::Kernel vtkIBLLamps::MakeKernel(const vtkIBLLobe& lobe)
+{
+  const double alpha2 = std::pow(lobe.PerceptualRoughness, 4.0);
+  const double k = (1.0 - alpha2) / (1.0 + alpha2);
+  const double oneMinusK = 2.0 * alpha2 / (1.0 + alpha2);
+  const double norm = // of t / (1 - k t)^2 over [0, 1]
+    k < 0.01 ? 0.5 * (1.0 + 4.0 / 3.0 * k) : (std::log(oneMinusK) + k / oneMinusK) / (k * k);
+  return { float(k), float(oneMinusK), float(lobe.Weight / (2.0 * Pi * norm)) };
 }
 
 vtkIBLLamps::vtkIBLLamps(std::vector<vtkIBLBrightTexel> texels, const std::vector<vtkIBLLobe>& lobes)

@@ -26,6 +26,7 @@ public:
   {
     float K, OneMinusK, Scale;
   };
+  static Kernel MakeKernel(const vtkIBLLobe& lobe); // its integral over the sphere is the lobe's weight
   struct Light
   {
     glm::vec3 Direction, Power;
