@@ -48,6 +48,7 @@ vtkSmartPointer<vtkIBLLighting> MakeLighting(vtkImageData* image, int engine, do
   {
     chain->SetNumberOfSamples(int(setting));
   }
+  lighting->BrightTexelsOff(); // layers are judged with all light in them
   return lighting;
 }
 
@@ -264,7 +265,7 @@ TableWork MakeTable(vtkOpenGLRenderWindow* window, int samples)
   vtkSmartPointer<vtkImageData> image = table->Read();
   TableWork work;
   work.Read = [image](double NoV, double roughness) { return ReadTable(image, NoV, roughness); };
-  work.Bytes = 4LL * vtkIBLBRDFTable::Size * vtkIBLBRDFTable::Size; // RG16
+  work.Bytes = 16LL * vtkIBLBRDFTable::Size * vtkIBLBRDFTable::Size; // two blocks of RGBA16
   work.Run = [=] { return Rebuild(table, nullptr, nullptr, window); };
   return work;
 }
@@ -277,7 +278,7 @@ Work MakeBake(vtkOpenGLRenderWindow* window, int engine, const Map& map, double 
   const long long size = lighting->GetCubeMap()->GetOutputFaceSize();
   work.Fetches = engine == SampledEngine ? lighting->GetSpecularChain()->GetNumberOfReads() : -1;
   work.Bytes = (lighting->GetCubeMap()->GetNumberOfLevels() > 1 ? 128 : 96) * size * size +
-    8 * lighting->GetSpecularChain()->GetLastBuildTexels() + 4LL * vtkIBLBRDFTable::Size * vtkIBLBRDFTable::Size;
+    8 * lighting->GetSpecularChain()->GetLastBuildTexels() + 16LL * vtkIBLBRDFTable::Size * vtkIBLBRDFTable::Size;
   work.Run = [=, image = map.Image] { return RebuildAll(lighting, image, window, needs); };
   return work;
 }

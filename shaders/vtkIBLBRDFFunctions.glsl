@@ -23,6 +23,23 @@ float iblV_SmithGGXCorrelated(float NoV, float NoL, float alpha)
   return 0.5 / (view + light);
 }
 
+// Anisotropic GGX [1/sr] of a half vector (along tangent, bitangent, normal) and alphas along the first two (Burley 2012).
+// A half vector near the normal is told by its tangential parts: no digits are lost.
+float iblD_GGXAnisotropic(vec3 H, vec2 alpha)
+{
+  vec2 slope = vec2(H.x / alpha.x, H.y / alpha.y);
+  float d = slope.x * slope.x + slope.y * slope.y + H.z * H.z;
+  return 1.0 / (iblPi * alpha.x * alpha.y * d * d);
+}
+
+// Its height-correlated Smith visibility; V and L likewise (Heitz 2014).
+float iblV_SmithGGXAnisotropic(vec3 V, vec3 L, vec2 alpha)
+{
+  float view = L.z * length(vec3(alpha.x * V.x, alpha.y * V.y, V.z));
+  float light = V.z * length(vec3(alpha.x * L.x, alpha.y * L.y, L.z));
+  return 0.5 / (view + light);
+}
+
 // Schlick-Smith with k = alpha/2, the classic of real-time shading (Karis 2013), likewise divided by 4 NoL NoV.
 float iblV_SchlickSmith(float NoV, float NoL, float alpha)
 {
@@ -38,17 +55,17 @@ vec3 iblF_Schlick(vec3 f0, vec3 f90, float VoH)
   return f0 + (f90 - f0) * (grazing2 * grazing2 * grazing);
 }
 
-// Split sum (Karis 2013): (A, B) with  integral f(l,v) NoL dl = f0 A + f90 B  for Schlick's Fresnel term, NoV in (0,1].
-// Visible half vectors: with G1 of Smith in the density, the weight is 2 NoL V (NoV + sqrt(NoV^2 (1 - alpha^2) + alpha^2)).
+// Split sum (Karis 2013): (A, B) with  integral f(l,v) NoL dl = f0 A + f90 B  for Schlick's Fresnel term, NoV in (0,1], by visible
+// half vectors.
 vec2 iblSplitSum(float NoV, float perceptualRoughness, int geometry, uint sampleCount)
 {
   float alpha = max(iblAlpha(perceptualRoughness), 1e-6); // a mirror; its square is no denormal
   vec3 V = vec3(sqrt(max(1.0 - NoV * NoV, 0.0)), 0.0, NoV);
-  float masking = NoV + sqrt(NoV * NoV * (1.0 - alpha * alpha) + alpha * alpha);
+  vec2 visible = iblVisibleBound(V, vec2(alpha, alpha));
   vec2 sum = vec2(0.0, 0.0);
   for (uint i = 0u; i < sampleCount; ++i)
   {
-    vec3 H = iblVisibleHalfVectorGGX(iblHammersley(i, sampleCount), V, alpha);
+    vec3 H = iblVisibleHalfVectorGGX(iblHammersley(i, sampleCount), V, vec2(alpha, alpha), visible.x);
     float VoH = clamp(dot(V, H), 0.0, 1.0);
     float NoL = 2.0 * VoH * H.z - NoV;
     if (NoL > 0.0)
@@ -58,7 +75,7 @@ vec2 iblSplitSum(float NoV, float perceptualRoughness, int geometry, uint sample
       float grazing = 1.0 - VoH;
       float grazing2 = grazing * grazing;
       float fresnel = grazing2 * grazing2 * grazing;
-      float weight = 2.0 * NoL * visibility * masking;
+      float weight = 2.0 * NoL * visibility * visible.y;
       sum = sum + vec2(weight * (1.0 - fresnel), weight * fresnel);
     }
   }

@@ -1,9 +1,9 @@
-// The split sum's A and B over (sqrt(NoV), perceptualRoughness), edge-aligned.
-// Writes: table (image2D, rg16).  Dispatch: (n / IBL_TILE, n / IBL_TILE, 1).
+// The split sum's A and B over (sqrt(NoV), perceptualRoughness), edge-aligned: the table's first block; the rest stays.
+// Reads and writes: table (image2D, rgba16).  Dispatch: (n / IBL_TILE, n / IBL_TILE, 1).
 layout(local_size_x = IBL_TILE, local_size_y = IBL_TILE) in;
 uniform int geometry;
 uniform int sampleCount;
-layout(binding = 0, rg16) writeonly uniform image2D table;
+layout(binding = 0, rgba16) uniform image2D table;
 
 #include "vtkIBLDirectionFunctions.glsl"
 #include "vtkIBLSamplingFunctions.glsl"
@@ -13,11 +13,11 @@ layout(binding = 0, rg16) writeonly uniform image2D table;
 void main()
 {
   ivec2 texel = ivec2(gl_GlobalInvocationID);
-  int n = imageSize(table).x;
-  if (texel.x >= n || texel.y >= n)
+  if (texel.x >= IBL_TABLE_SIZE || texel.y >= IBL_TABLE_SIZE)
   {
     return;
   }
-  vec2 arguments = iblBRDFTableArguments(float(texel.x), float(texel.y), float(n));
-  imageStore(table, texel, vec4(iblSplitSum(max(arguments.x, 1e-4), arguments.y, geometry, uint(sampleCount)), 0.0, 0.0));
+  vec2 arguments = iblBRDFTableArguments(float(texel.x), float(texel.y), float(IBL_TABLE_SIZE));
+  vec2 ab = iblSplitSum(max(arguments.x, 1e-4), arguments.y, geometry, uint(sampleCount));
+  imageStore(table, texel, vec4(ab, imageLoad(table, texel).zw));
 }

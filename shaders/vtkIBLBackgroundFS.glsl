@@ -8,6 +8,11 @@ uniform vec2 viewShift;
 uniform mat3 environmentFromView;
 uniform vec3 radianceScale;
 uniform float encodingExponent; // 1: linear; 1/2.2: display, as VTK encodes its PBR surfaces
+// Lamps that layers are without, environment space, as a mirror of that roughness shows them: Scale t / (1 - k t)^2.
+uniform int lampCount;
+uniform vec3 lampDirections[IBL_MAXIMUM_LAMPS];
+uniform vec3 lampPowers[IBL_MAXIMUM_LAMPS];
+uniform vec3 lampKernels[IBL_MAXIMUM_LAMPS]; // k, 1 - k, Scale
 
 #include "vtkIBLLayers.glsl"
 
@@ -15,5 +20,12 @@ void main()
 {
   vec3 direction = environmentFromView * vec3((ndc + viewShift) * viewScale, -1.0);
   vec3 radiance = iblPrefilteredRadiance(direction, blur) * iblStoredScale;
+  for (int i = 0; i < lampCount; ++i)
+  {
+    vec3 apart = normalize(direction) - lampDirections[i];
+    float oneMinusT = 0.5 * dot(apart, apart);
+    float w = lampKernels[i].y + lampKernels[i].x * oneMinusT;
+    radiance += lampPowers[i] * (lampKernels[i].z * max(1.0 - oneMinusT, 0.0) / (w * w));
+  }
   color = vec4(pow(radiance * radianceScale, vec3(encodingExponent)), 1.0);
 }

@@ -16,3 +16,23 @@ float iblPerceptualRoughnessFromLayer(float layer, float layers)
 {
   return layer < 1.0 ? layer * IBL_FIRST_ROUGHNESS : exp2(IBL_LOG2_FIRST_ROUGHNESS * (1.0 - (layer - 1.0) / (layers - 1.0)));
 }
+
+// Roughness as the BRDF table holds it, a position in [0, 1] on any ladder: the first fifth up to layer 1, evenly in roughness, and
+// from there evenly in layers. No logarithm is left to the shader.
+float iblLadderPosition(float perceptualRoughness)
+{
+  return perceptualRoughness < IBL_FIRST_ROUGHNESS
+    ? 0.2 * perceptualRoughness / IBL_FIRST_ROUGHNESS
+    : 0.2 + 0.8 * (1.0 - log2(min(perceptualRoughness, 1.0)) / IBL_LOG2_FIRST_ROUGHNESS);
+}
+
+float iblPerceptualRoughnessFromPosition(float position)
+{
+  return position < 0.2 ? 5.0 * position * IBL_FIRST_ROUGHNESS
+                        : exp2(IBL_LOG2_FIRST_ROUGHNESS * (1.0 - 1.25 * (position - 0.2)));
+}
+
+float iblLayerFromPosition(float position, float layers)
+{
+  return position < 0.2 ? 5.0 * position : 1.0 + (layers - 1.0) * (1.25 * (position - 0.2));
+}

@@ -7,10 +7,10 @@ uniform float iblStoredScale; // what layers are divided by, and the radiance cu
 
 #include "vtkIBLLadderFunctions.glsl"
 
-// Stored light from direction [environment space] through a GGX lobe of perceptualRoughness.
-vec3 iblPrefilteredRadiance(vec3 direction, float perceptualRoughness)
+// Stored light from direction [environment space] at a layer, or between two.
+vec3 iblLayerRadiance(vec3 direction, float at)
 {
-  float layer = clamp(iblLayerFromPerceptualRoughness(perceptualRoughness, iblLayers), 0.0, iblLayers);
+  float layer = clamp(at, 0.0, iblLayers);
   float below = min(floor(layer), iblLayers - 1.0);
   float share = layer - below;
   float level = floor(0.5 * below);
@@ -19,4 +19,10 @@ vec3 iblPrefilteredRadiance(vec3 direction, float perceptualRoughness)
                            : textureLod(iblEvenLayers, direction, belowIsEven ? level - 1.0 : level).rgb;
   vec3 odd = share == 0.0 && belowIsEven ? even : textureLod(iblOddLayers, direction, level).rgb;
   return mix(even, odd, belowIsEven ? share : 1.0 - share);
+}
+
+// The same through a GGX lobe of perceptualRoughness.
+vec3 iblPrefilteredRadiance(vec3 direction, float perceptualRoughness)
+{
+  return iblLayerRadiance(direction, iblLayerFromPerceptualRoughness(perceptualRoughness, iblLayers));
 }

@@ -1,21 +1,131 @@
-// Environment light on one fragment by prefiltered layers and the table, for VTK's mapper shaders (#version 150: no bindings, no
-// compute). Every global name begins with ibl, since VTK's own text is around it.
+// Environment light by prefiltered layers, the table's lobes, and bright texels as IBL_LAMPS lights: their number is in the text, since a
+// loop that is not unrolled costs as much as ten lamps on llvmpipe.
 uniform samplerCube iblIrradiance; // over pi, of the stored light
+#if IBL_LAMPS > 0
+uniform vec4 iblLampDirections[IBL_LAMPS]; // view space; w: what its width adds to alpha^2
+uniform vec3 iblLampPowers[IBL_LAMPS];     // radiance x solid angle [sr], of the stored light
+#endif
 
 #include "vtkIBLSurface.glsl"
 #include "vtkIBLLayers.glsl"
+#include "vtkIBLDirectionFunctions.glsl"
+#include "vtkIBLSamplingFunctions.glsl"
+#include "vtkIBLBRDFFunctions.glsl"
 
-// Radiance towards the camera from a surface of unit normal normalVC at positionVC: `metallic` of it metal (f0 = albedo, f90 =
-// edgeTint), the rest dielectric (f0 = baseF0 over a matt base of that albedo).
-vec3 iblEnvironmentLight(
-  vec3 normalVC, vec3 positionVC, vec3 albedo, float perceptualRoughness, float metallic, float baseF0, vec3 edgeTint)
+iblDiffuse iblDiffuseLight(iblBoundary boundary, vec3 viewVC)
 {
-  vec3 viewVC = iblViewDirection(positionVC);
-  float NoV = clamp(dot(normalVC, viewVC), 1e-4, 1.0);
-  vec3 specular = iblPrefilteredRadiance(iblEnvironmentFromView * reflect(-viewVC, normalVC), perceptualRoughness);
-  vec3 diffuse = textureLod(iblIrradiance, iblEnvironmentFromView * normalVC, 0.0).rgb;
+  iblDiffuse light;
+  light.layers = textureLod(iblIrradiance, iblEnvironmentFromView * boundary.normal, 0.0).rgb;
+  light.irradiance = light.layers;
+#if IBL_LAMPS > 0
+  for (int i = 0; i < IBL_LAMPS; ++i)
+  {
+    light.irradiance += iblLampPowers[i] * (max(dot(boundary.normal, iblLampDirections[i].xyz), 0.0) / iblPi);
+  }
+#endif
+#if IBL_ENERGY == IBL_SINGLE_SCATTER
+  light.refracted = light.irradiance * (vec3(1.0) - boundary.f0 - (boundary.f90 - boundary.f0) * iblDiffuseFresnel(boundary.NoV));
+#else
+  light.refracted = light.irradiance;
+#endif
+  return light;
+}
 
-  vec2 ab = iblTableAB(NoV, perceptualRoughness);
-  vec3 once = mix(iblSingleScatter(vec3(baseF0), iblDielectricF90(baseF0), ab), iblSingleScatter(albedo, edgeTint, ab), metallic);
-  return iblRadianceScale * (once * specular + iblDiffuseAlbedo(albedo, metallic, baseF0, edgeTint, ab) * diffuse);
+#if IBL_LAMPS > 0
+// Bright texels under the boundary's exact lobe, a little wider for their size. Below the first layer's roughness they fade into the
+// mirror's image, which has them, at the first layer's lobe.
+vec3 iblReflectedLamps(iblBoundary boundary, vec3 viewVC)
+{
+  float alpha = iblAlpha(max(boundary.perceptualRoughness, IBL_FIRST_ROUGHNESS));
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < IBL_LAMPS; ++i)
+  {
+    vec3 L = iblLampDirections[i].xyz;
+    float NoL = dot(boundary.normal, L);
+    vec3 H = normalize(viewVC + L);
+    float VoH = clamp(dot(viewVC, H), 0.0, 1.0);
+    float lobe;
+#ifdef IBL_ANISOTROPY
+    if (boundary.anisotropic)
+    {
+      mat3 tangentFromView = transpose(mat3(boundary.tangent, boundary.bitangent, boundary.normal));
+      vec2 alphas = sqrt(boundary.alpha * boundary.alpha + vec2(iblLampDirections[i].w));
+      vec3 V = tangentFromView * viewVC;
+      lobe = iblD_GGXAnisotropic(tangentFromView * H, alphas) *
+        iblV_SmithGGXAnisotropic(vec3(V.xy, boundary.NoV), vec3((tangentFromView * L).xy, max(NoL, 0.0)), boundary.alpha);
+    }
+    else
+#endif
+    {
+      float cos2 = dot(boundary.normal, H);
+      cos2 *= cos2;
+      lobe = iblD_GGX(cos2, 1.0 - cos2, sqrt(alpha * alpha + iblLampDirections[i].w)) *
+        iblV_SmithGGXCorrelated(boundary.NoV, max(NoL, 0.0), alpha);
+    }
+#ifdef IBL_HORIZON
+    lobe *= dot(boundary.geometricNormal, L) > 0.0 ? 1.0 : 0.0;
+#endif
+    sum += iblLampPowers[i] * (max(NoL, 0.0) * lobe) * iblF_Schlick(boundary.f0, boundary.f90, VoH);
+  }
+  return min(boundary.perceptualRoughness / IBL_FIRST_ROUGHNESS, 1.0) * sum;
+}
+#endif
+
+#ifdef IBL_ANISOTROPY
+// An anisotropic lobe as isotropic ones of its narrow side in a row along the wide one, as the slopes of GGX are spread there: half
+// vectors at  tan = spread u / sqrt(1 - u^2)  for even u have the marginal density of alpha = spread, and widths of GGX, with its
+// long tails, add up when convolved. Each counts for what the surface reflects by it, 4 V NoL VoH / NoH of D NoH.
+vec3 iblAnisotropicRadiance(iblBoundary boundary, vec3 viewVC, vec2 lobe)
+{
+  bool wideTangent = boundary.alpha.x > boundary.alpha.y;
+  float narrow = min(boundary.alpha.x, boundary.alpha.y);
+  float wide = max(boundary.alpha.x, boundary.alpha.y);
+  vec3 along = (wideTangent ? boundary.tangent : boundary.bitangent) * (wide - narrow);
+  mat3 tangentFromView = transpose(mat3(boundary.tangent, boundary.bitangent, boundary.normal));
+  vec3 V = vec3((tangentFromView * viewVC).xy, boundary.NoV);
+  float layer = iblLayerFromPosition(lobe.y, iblLayers);
+  vec3 sum = vec3(0.0);
+  float weights = 1e-6;
+  for (int i = 0; i < IBL_ANISOTROPIC_LOBES; ++i)
+  {
+    float u = (2.0 * float(i) + 1.0) / float(IBL_ANISOTROPIC_LOBES) - 1.0;
+    vec3 H = normalize(boundary.normal + along * (u * inversesqrt(1.0 - u * u)));
+    vec3 L = reflect(-viewVC, H);
+    vec3 local = tangentFromView * L;
+    float weight = local.z > 0.0 ? iblV_SmithGGXAnisotropic(V, local, boundary.alpha) * local.z *
+        max(dot(viewVC, H), 0.0) / dot(H, boundary.normal) : 0.0;
+    sum += weight * iblLayerRadiance(iblEnvironmentFromView * mix(H, L, lobe.x), layer);
+    weights += weight;
+  }
+  return sum / weights;
+}
+#endif
+
+vec3 iblReflectedLight(iblBoundary boundary, vec3 viewVC, vec3 layers)
+{
+  const vec3 mean = vec3(1.0 / 3.0);
+  float share = iblDielectricShare(dot(boundary.f0, mean), dot(boundary.f90, mean), boundary.reflection.xy);
+  vec2 lobe = mix(boundary.lobes.xy, boundary.lobes.zw, share); // bend, position on the ladder
+  float diffuseShare = mix(boundary.reflection.z, boundary.reflection.w, share);
+  vec3 reflected = reflect(-viewVC, boundary.normal);
+  vec3 radiance;
+#ifdef IBL_ANISOTROPY
+  if (boundary.anisotropic)
+  {
+    radiance = iblAnisotropicRadiance(boundary, viewVC, lobe);
+  }
+  else
+#endif
+  {
+    radiance = iblLayerRadiance(
+      iblEnvironmentFromView * mix(boundary.normal, reflected, lobe.x), iblLayerFromPosition(lobe.y, iblLayers));
+  }
+  radiance = boundary.once * mix(radiance, layers, diffuseShare);
+#ifdef IBL_HORIZON
+  radiance *= iblHorizonFade(dot(reflected, boundary.geometricNormal));
+#endif
+#if IBL_LAMPS > 0
+  radiance += iblReflectedLamps(boundary, viewVC);
+#endif
+  return radiance;
 }

@@ -37,17 +37,31 @@ vec2 iblHalfVectorGGX(float u, float alpha)
   return vec2((1.0 - u) * scale, a2u * scale);
 }
 
-// A visible half vector for view direction V in the tangent frame (N = +z): density G1(V) D(h) VoH / NoV [1/sr], by spherical
-// caps (Dupuy & Benyoub 2023, listing 3).
-vec3 iblVisibleHalfVectorGGX(vec2 u, vec3 V, float alpha)
+// Of visible half vectors, those whose reflections can be above the horizon, for view direction V in the tangent frame (N = +z):
+// (k, k V.z + |(alpha V.xy, V.z)|), the bound of the cap they are drawn from, and what stands for masking in their density (Eto &
+// Tokuyoshi 2023).
+vec2 iblVisibleBound(vec3 V, vec2 alpha)
 {
-  vec3 stretched = normalize(vec3(alpha * V.x, alpha * V.y, V.z));
+  float a = min(min(alpha.x, alpha.y), 1.0);
+  float s = 1.0 + sqrt(V.x * V.x + V.y * V.y);
+  float a2 = a * a;
+  float s2 = s * s;
+  float k = (1.0 - a2) * s2 / (s2 + a2 * V.z * V.z);
+  return vec2(k, k * V.z + length(vec3(alpha.x * V.x, alpha.y * V.y, V.z)));
+}
+
+// One of them, of density  D(H) / (2 masking)  in L, the direction reflected at H [1/sr], by spherical caps (Dupuy & Benyoub 2023;
+// bounded: Eto & Tokuyoshi 2023, listing 1). So  f NoL / density = 2 F V NoL masking.
+vec3 iblVisibleHalfVectorGGX(vec2 u, vec3 V, vec2 alpha, float bound)
+{
+  vec3 stretched = normalize(vec3(alpha.x * V.x, alpha.y * V.y, V.z));
   float phi = 2.0 * iblPi * u.x;
   // A cap's point has z = 1 - w; sine and the sum's z follow without a difference of near numbers.
-  float w = u.y * (1.0 + stretched.z);
+  float w = u.y * (1.0 + bound * stretched.z);
   float sine = sqrt(max(w * (2.0 - w), 0.0));
-  vec3 h = vec3(sine * cos(phi) + stretched.x, sine * sin(phi) + stretched.y, (1.0 - u.y) * (1.0 + stretched.z));
-  return normalize(vec3(alpha * h.x, alpha * h.y, max(h.z, 1e-9)));
+  vec3 h = vec3(sine * cos(phi) + stretched.x, sine * sin(phi) + stretched.y,
+    (1.0 - u.y) * (1.0 + bound * stretched.z) + (1.0 - bound) * stretched.z);
+  return normalize(vec3(alpha.x * h.x, alpha.y * h.y, max(h.z, 1e-9)));
 }
 
 // Tangent frame with N as its third column (Duff et al. 2017): no branch at the poles but the sign.

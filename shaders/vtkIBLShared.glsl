@@ -12,6 +12,18 @@
 // Rec. 709. (GLSL only.)
 #define IBL_LUMINANCE vec3(0.2126, 0.7152, 0.0722)
 
+// The BRDF table's second set of lobes is a dielectric's of this f0 (index of refraction 1.5).
+#define IBL_DIELECTRIC_F0 0.04
+
+// The BRDF table's blocks are squares of so many texels.
+#define IBL_TABLE_SIZE 64
+
+// Isotropic lobes that stand for an anisotropic one.
+#define IBL_ANISOTROPIC_LOBES 7
+
+// Bright texels that shading takes as lights.
+#define IBL_MAXIMUM_LAMPS 8
+
 // iblSplitSum: the geometry term.
 #define IBL_SMITH_CORRELATED 0
 #define IBL_SCHLICK_SMITH 1

@@ -1,21 +1,95 @@
-// What the fast and the sampled lighting share: the surface's side of the matter, and uniforms.
+// The surface's side of environment light, for VTK's mapper shaders (#version 150: no bindings, no compute): which boundaries reflect,
+// and what becomes of the light that they let through. Every global name begins with ibl, since VTK's own text is around it.
+//
+// Whoever includes this says what it needs, as text costs time even where it isn't taken:
+//   IBL_ENERGY       IBL_SINGLE_SCATTER, IBL_MULTIPLE_SCATTER, IBL_CLASSIC
+//   IBL_METAL, IBL_DIELECTRIC: the surface is known to be all of that
+//   IBL_ANISOTROPY, IBL_COAT, IBL_HORIZON, IBL_OCCLUSION, IBL_SPECULAR_OCCLUSION: defined or not
+// and defines iblDiffuseLight() and iblReflectedLight(), declared below.
+#define IBL_SINGLE_SCATTER 0
+#define IBL_MULTIPLE_SCATTER 1
+#define IBL_CLASSIC 2
+
 uniform sampler2D iblBRDFTable;
 uniform mat3 iblEnvironmentFromView;
 uniform vec3 iblRadianceScale; // from the light as it is stored to the scene's: exposure, intensity, tint
 uniform int iblParallelProjection;
-uniform int iblEnergyCompensation;
 
 #include "vtkIBLEnergyFunctions.glsl"
+
+// All directions are unit vectors in view space.
+struct iblMaterial
+{
+  vec3 normal;
+  vec3 albedo; // of the matt base, and the metal's f0
+  vec3 edgeTint; // the metal's f90
+  float perceptualRoughness;
+  float metallic; // share of the surface that is metal
+  float baseF0; // of the dielectric rest
+#ifdef IBL_OCCLUSION
+  float occlusion; // 1: none
+#endif
+#ifdef IBL_HORIZON
+  vec3 geometricNormal; // the unbumped one
+#endif
+#ifdef IBL_ANISOTROPY
+  vec3 tangent;
+  vec3 bitangent;
+  vec2 alpha; // along these
+#endif
+#ifdef IBL_COAT
+  vec3 coatNormal;
+  vec3 coatTint; // of what passes the coat
+  float coatRoughness; // perceptual
+  float coatStrength;
+  float coatF0;
+#endif
+};
+
+// Stored light towards the camera, to be multiplied by iblRadianceScale; and the share of even light that is reflected without
+// entering the surface.
+struct iblOutgoing
+{
+  vec3 specular;
+  vec3 diffuse;
+  vec3 reflectance;
+};
+
+// A boundary that reflects: the surface's, or the coat's over it.
+struct iblBoundary
+{
+  vec3 normal;
+  float NoV;
+  float perceptualRoughness;
+  vec3 f0;
+  vec3 f90;
+  vec3 once; // share of even light that it reflects once
+  vec4 reflection; // the table's first block, and second
+  vec4 lobes;
+#ifdef IBL_HORIZON
+  vec3 geometricNormal;
+#endif
+#ifdef IBL_ANISOTROPY
+  bool anisotropic;
+  vec3 tangent;
+  vec3 bitangent;
+  vec2 alpha;
+#endif
+};
+
+// Light on a matt base, per albedo: all of it, the part that Schlick's term lets in, and what of it the layers are short of.
+struct iblDiffuse
+{
+  vec3 irradiance; // over pi
+  vec3 refracted; // over pi
+  vec3 layers; // over pi: of the light that layers hold
+};
+iblDiffuse iblDiffuseLight(iblBoundary boundary, vec3 viewVC);
+vec3 iblReflectedLight(iblBoundary boundary, vec3 viewVC, vec3 layers);
 
 vec3 iblViewDirection(vec3 positionVC)
 {
   return iblParallelProjection != 0 ? vec3(0.0, 0.0, 1.0) : normalize(-positionVC);
-}
-
-vec2 iblTableAB(float NoV, float perceptualRoughness)
-{
-  float size = float(textureSize(iblBRDFTable, 0).x);
-  return texture(iblBRDFTable, iblBRDFTableCoordinates(NoV, clamp(perceptualRoughness, 0.0, 1.0), size)).rg;
 }
 
 // Below an f0 of 2 % it is no reflection but occlusion (Lagarde & de Rousiers 2014), as in VTK.
@@ -24,12 +98,106 @@ vec3 iblDielectricF90(float baseF0)
   return vec3(min(50.0 * baseF0, 1.0));
 }
 
-// Factor of irradiance over pi: light scattered again among facets, and what the dielectric's matt base gives back of the rest.
-vec3 iblDiffuseAlbedo(vec3 albedo, float metallic, float baseF0, vec3 edgeTint, vec2 ab)
+vec4 iblReadTable(float NoV, float perceptualRoughness, float block)
 {
-  float compensation = iblEnergyCompensation != 0 ? 1.0 : 0.0;
-  vec3 f90 = iblDielectricF90(baseF0);
-  vec3 again = compensation * iblMultipleScatter(vec3(baseF0), f90, ab);
-  vec3 matt = albedo * (vec3(1.0) - iblSingleScatter(vec3(baseF0), f90, ab) - again);
-  return mix(again + matt, compensation * iblMultipleScatter(albedo, edgeTint, ab), metallic);
+  return textureLod(
+    iblBRDFTable, iblBRDFTableCoordinates(NoV, perceptualRoughness, block, float(IBL_TABLE_SIZE)), 0.0);
+}
+
+iblBoundary iblMakeBoundary(iblMaterial material, vec3 normal, vec3 viewVC, float perceptualRoughness)
+{
+  iblBoundary boundary;
+  boundary.normal = normal;
+  boundary.NoV = clamp(dot(normal, viewVC), 1e-4, 1.0);
+  boundary.perceptualRoughness = clamp(perceptualRoughness, 0.0, 1.0);
+  boundary.reflection = iblReadTable(boundary.NoV, boundary.perceptualRoughness, 0.0);
+  boundary.lobes = iblReadTable(boundary.NoV, boundary.perceptualRoughness, 1.0);
+#ifdef IBL_HORIZON
+  boundary.geometricNormal = material.geometricNormal;
+#endif
+#ifdef IBL_ANISOTROPY
+  boundary.anisotropic = false;
+#endif
+  return boundary;
+}
+
+// From dielectric to metal.
+vec3 iblMix(vec3 dielectric, vec3 metal, float metallic)
+{
+#if defined(IBL_DIELECTRIC)
+  return dielectric;
+#elif defined(IBL_METAL)
+  return metal;
+#else
+  return mix(dielectric, metal, metallic);
+#endif
+}
+
+vec3 iblOnce(vec3 f0, vec3 f90, iblBoundary boundary)
+{
+#if IBL_ENERGY == IBL_CLASSIC
+  return iblClassicSingleScatter(f0, f90, boundary.reflection.xy, boundary.NoV, boundary.perceptualRoughness);
+#else
+  return iblSingleScatter(f0, f90, boundary.reflection.xy);
+#endif
+}
+
+// Environment light from a material at positionVC.
+iblOutgoing iblEnvironmentLight(iblMaterial material, vec3 positionVC)
+{
+  vec3 viewVC = iblViewDirection(positionVC);
+  iblBoundary surface = iblMakeBoundary(material, material.normal, viewVC, material.perceptualRoughness);
+#ifdef IBL_ANISOTROPY
+  surface.anisotropic = true;
+  surface.tangent = material.tangent;
+  surface.bitangent = material.bitangent;
+  surface.alpha = material.alpha;
+  // It will be put together from lobes of its narrow side.
+  float narrow = sqrt(min(material.alpha.x, material.alpha.y));
+  surface.reflection.zw = iblReadTable(surface.NoV, narrow, 0.0).zw;
+  surface.lobes = iblReadTable(surface.NoV, narrow, 1.0);
+#endif
+  vec3 baseF0 = vec3(material.baseF0);
+  vec3 baseF90 = iblDielectricF90(material.baseF0);
+  vec3 baseOnce = iblOnce(baseF0, baseF90, surface);
+  vec3 metalOnce = iblOnce(material.albedo, material.edgeTint, surface);
+  surface.f0 = iblMix(baseF0, material.albedo, material.metallic);
+  surface.f90 = iblMix(baseF90, material.edgeTint, material.metallic);
+  surface.once = iblMix(baseOnce, metalOnce, material.metallic);
+
+  iblDiffuse light = iblDiffuseLight(surface, viewVC);
+  iblOutgoing outgoing;
+  outgoing.reflectance = surface.once;
+  outgoing.specular = iblReflectedLight(surface, viewVC, light.layers);
+  // Light scattered again among facets, and what the dielectric's matt base gives back of the rest.
+#if IBL_ENERGY == IBL_SINGLE_SCATTER
+  outgoing.diffuse = iblMix(material.albedo, vec3(0.0), material.metallic) * light.refracted;
+#else
+  vec2 ab = surface.reflection.xy;
+  vec3 again = iblMultipleScatter(baseF0, baseF90, baseOnce, ab);
+  vec3 matt = material.albedo * max(vec3(1.0) - baseOnce - again, vec3(0.0));
+  vec3 metalAgain = iblMultipleScatter(material.albedo, material.edgeTint, metalOnce, ab);
+  outgoing.diffuse = light.irradiance * iblMix(again + matt, metalAgain, material.metallic);
+#endif
+#ifdef IBL_OCCLUSION
+  outgoing.diffuse *= material.occlusion;
+#ifdef IBL_SPECULAR_OCCLUSION
+  outgoing.specular *= iblSpecularOcclusion(
+    surface.NoV, material.occlusion, surface.perceptualRoughness * surface.perceptualRoughness);
+#else
+  outgoing.specular *= material.occlusion;
+#endif
+#endif
+#ifdef IBL_COAT
+  // Over it a clear coat: what it reflects, all of it dielectric, is lost to what is below, which is tinted on its way.
+  iblBoundary coat = iblMakeBoundary(material, material.coatNormal, viewVC, material.coatRoughness);
+  coat.f0 = vec3(material.coatF0);
+  coat.f90 = vec3(1.0);
+  coat.once = iblOnce(coat.f0, coat.f90, coat);
+  vec3 below = (vec3(1.0) - material.coatStrength * coat.once) * material.coatTint;
+  outgoing.diffuse *= below;
+  outgoing.specular = below * outgoing.specular + material.coatStrength * iblReflectedLight(coat, viewVC, light.layers);
+  outgoing.reflectance = below * outgoing.reflectance + material.coatStrength * coat.once;
+#endif
+  return outgoing;
 }

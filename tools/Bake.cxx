@@ -127,11 +127,11 @@ JSON WriteBRDF(vtkIBLBRDFTable* table, const fs::path& folder, tool::OutputFiles
   const vtkSmartPointer<vtkImageData> image = table->Read();
   tool::ThrowIfError();
   constexpr int n = vtkIBLBRDFTable::Size;
-  const auto* rgb = static_cast<const float*>(image->GetScalarPointer());
+  const auto* rgba = static_cast<const float*>(image->GetScalarPointer());
   std::vector<float> ab;
-  for (int i = 0; i < n * n; ++i)
+  for (int i = 0; i < n * n; ++i) // the lower block; lobes are for our ladder
   {
-    ab.insert(ab.end(), { rgb[3 * i], rgb[3 * i + 1] });
+    ab.insert(ab.end(), { rgba[4 * i], rgba[4 * i + 1] });
   }
   const JSON metadata = { { "vtkibl:layout", "x: NoV = (i/(n-1))^2; y: perceptualRoughness = j/(n-1), row 0 on top" } };
   files.Add(folder / "brdf.exr", tool::EncodeEXR(n, n, { "A", "B" }, ab.data(), metadata));
@@ -325,6 +325,7 @@ void Bake(const BakeOptions& options)
   const auto start = std::chrono::steady_clock::now();
   vtkNew<vtkIBLOffscreenWindow> window;
   vtkNew<vtkIBLLighting> lighting;
+  lighting->BrightTexelsOff(); // what is exported holds all light
   vtkNew<vtkIBLIrradiance> irradiance;
   lighting->GetSpecularChain()->SetEngine(
     options.Engine == "spectral" ? vtkIBLSpecularChain::Spectral : vtkIBLSpecularChain::Sampled);

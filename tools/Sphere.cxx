@@ -34,14 +34,14 @@ struct SphereOptions
   double Roughness = 0.5;
   double Metallic = 1.0;
   double Albedo = 1.0;
-  std::string Shading = "fast";
+  std::string Shading = "fitted";
   int Samples = 1024;
   std::string Compensation; // "": as the shading has it
 
   int GetSamplesPerPixel() const { return this->Shading == "sampled" ? this->Samples : 0; }
   bool GetCompensation() const
   {
-    return this->Compensation.empty() ? this->Shading == "fast" : this->Compensation == "on";
+    return this->Compensation.empty() ? this->Shading != "sampled" : this->Compensation == "on";
   }
 };
 
@@ -110,7 +110,9 @@ JSON DescribeSphere(const SphereOptions& options, vtkIBLEnvironment* environment
     { "f90", 1.0 } };
   json["shading"] = options.Shading;
   json["shadingIs"] = options.Shading == "sampled" ? "the reflection integral: GGX, height-correlated Smith, Schlick"
-                                                   : "split sum of the same: prefiltered light times A f0 + B f90";
+    : options.Shading == "fitted"
+    ? "lobes fitted to it in prefiltered light, times A f0 + B f90; the strongest lamps exactly"
+    : "lobes fitted to it in prefiltered light, times A f0 + B f90";
   json["energyCompensation"] = options.GetCompensation();
   json["energyCompensationIs"] = "light scattered more than once given back (Fdez-Aguera 2019): white stays white";
   json["samplesPerPixel"] = options.GetSamplesPerPixel();
@@ -139,10 +141,6 @@ std::vector<float> Capture(vtkIBLRenderPass* ibl, vtkRenderer* renderer)
 
 void Sphere(const SphereOptions& options)
 {
-  if (options.Shading == "fitted")
-  {
-    throw tool::Failure("fitted lobes are not in this version; use fast or sampled");
-  }
   tool::Progress progress;
   std::filesystem::path description = options.Output;
   description.replace_extension(".json");
@@ -156,6 +154,7 @@ void Sphere(const SphereOptions& options)
   ibl->SetEnvironment(environment);
   ibl->GetLighting()->SetSamplesPerPixel(options.GetSamplesPerPixel());
   ibl->GetLighting()->SetEnergyCompensation(options.GetCompensation());
+  ibl->GetLighting()->SetBrightTexels(options.Shading == "fitted");
   AddSphereActor(renderer, options);
   AimCamera(renderer->GetActiveCamera(), options.Size);
   renderer->SetBackground(0.0, 0.0, 0.0);
@@ -188,8 +187,9 @@ void AddMaterial(CLI::App* command, SphereOptions& options)
     ->type_name("A");
   command
     ->add_option("--shading", options.Shading,
-      "fast: prefiltered light, what the library renders with; sampled: the reflection\n"
-      "integral itself; fitted: not in this version; default fast")
+      "fast: fitted lobes in prefiltered light; fitted: the same, and the strongest lamps\n"
+      "exactly, what the library renders with; sampled: the reflection integral itself;\n"
+      "default fitted")
     ->check(CLI::IsMember({ "fast", "fitted", "sampled" }))
     ->type_name("HOW");
   command->add_option("--samples", options.Samples, "Samples a pixel of 'sampled', in [1, 65536]; default 1024")
@@ -197,9 +197,8 @@ void AddMaterial(CLI::App* command, SphereOptions& options)
     ->type_name("N");
   command
     ->add_option("--compensation", options.Compensation,
-      "Give back the light that rough surfaces scatter more than once; default on for fast,\n"
-      "which is then what the library shows, and off for sampled, which is then the plain\n"
-      "integral of GGX")
+      "Give back the light that rough surfaces scatter more than once; default on for fast\n"
+      "and fitted, and off for sampled, which is then the plain integral of GGX")
     ->check(CLI::IsMember({ "on", "off" }))
     ->type_name("HOW");
 }

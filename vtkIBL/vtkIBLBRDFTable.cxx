@@ -4,17 +4,44 @@
 
 #include "vtkIBLBRDFTableTexels.h"
 #include "vtkIBLGL.h"
+#include "vtkIBLShaderFunctions.h"
 #include "vtkIBLShared.glsl"
 
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
 
 vtkStandardNewMacro(vtkIBLBRDFTable);
 
 static_assert(
   vtkIBLBRDFTable::SmithCorrelated == IBL_SMITH_CORRELATED && vtkIBLBRDFTable::SchlickSmith == IBL_SCHLICK_SMITH,
   "the shader takes the enumeration's values");
-static_assert(vtkIBLBRDFTable::Size == vtkIBLBRDFTableSize, "the header says how large the constant is");
+static_assert(vtkIBLBRDFTable::Size == vtkIBLBRDFTableSize && vtkIBLBRDFTable::Size == IBL_TABLE_SIZE,
+  "the header, the constant and the shaders say how large it is");
+
+namespace
+{
+// Along R, of the surface's own roughness, all of it; A and B are to come.
+std::vector<std::uint16_t> MakePlainLobes()
+{
+  constexpr int n = vtkIBLBRDFTable::Size;
+  vtkIBLCore::ShaderFunctions<double> shader;
+  std::vector<std::uint16_t> texels(std::size_t(n) * n * vtkIBLBRDFTableChannels, 0);
+  for (int j = 0; j < n; ++j)
+  {
+    const auto roughness = static_cast<std::uint16_t>(std::lround(65535.0 * shader.iblLadderPosition(j / (n - 1.0))));
+    for (int i = 0; i < n; ++i)
+    {
+      texels.insert(texels.end(), { 65535, roughness, 65535, roughness });
+    }
+  }
+  return texels;
+}
+}
 
 struct vtkIBLBRDFTable::Internals
 {
@@ -42,6 +69,23 @@ const vtkIBLGL::Texture& vtkIBLBRDFTable::GetTexture() const
   return this->Internal->Table;
 }
 
+double vtkIBLBRDFTable::GetNarrowestLobe(double perceptualRoughness)
+{
+  const double row = std::clamp(perceptualRoughness, 0.0, 1.0) * (Size - 1);
+  const int below = std::min(static_cast<int>(row), Size - 2);
+  double narrowest = 1.0;
+  for (int i = 0; i < Size; ++i)
+  {
+    for (int channel : { 1, 3 })
+    {
+      const auto get = [&](int j)
+      { return vtkIBLBRDFTableTexels[((Size + j) * Size + i) * vtkIBLBRDFTableChannels + channel] / 65535.0; };
+      narrowest = std::min(narrowest, get(below) + (row - below) * (get(below + 1) - get(below)));
+    }
+  }
+  return vtkIBLCore::ShaderFunctions<double>().iblPerceptualRoughnessFromPosition(narrowest);
+}
+
 bool vtkIBLBRDFTable::UpdateInput(vtkOpenGLRenderWindow*, vtkMTimeType&)
 {
   return true;
@@ -50,18 +94,19 @@ bool vtkIBLBRDFTable::UpdateInput(vtkOpenGLRenderWindow*, vtkMTimeType&)
 std::vector<vtkIBLStatistics::Work> vtkIBLBRDFTable::Build(vtkOpenGLRenderWindow* window)
 {
   using namespace vtkIBLGL;
-  Texture table = Texture::Image2D(window, Size, Size, GL_RG16);
-  if (this->GeometryTerm == SmithCorrelated && this->NumberOfSamples == 0)
-  {
-    glTextureSubImage2D(table.Id(), 0, 0, 0, Size, Size, GL_RG, GL_UNSIGNED_SHORT, vtkIBLBRDFTableTexels);
-    CheckErrors("uploading the BRDF table");
-  }
-  else
+  Texture table = Texture::Image2D(window, Size, vtkIBLBRDFTableBlocks * Size, GL_RGBA16);
+  const bool fitted = this->GeometryTerm == SmithCorrelated;
+  const std::vector<std::uint16_t> plain = fitted ? std::vector<std::uint16_t>() : MakePlainLobes();
+  glTextureSubImage2D(table.Id(), 0, 0, 0, Size, vtkIBLBRDFTableBlocks * Size, GL_RGBA, GL_UNSIGNED_SHORT,
+    fitted ? vtkIBLBRDFTableTexels : plain.data());
+  CheckErrors("uploading the BRDF table");
+  if (!fitted || this->NumberOfSamples > 0)
   {
     this->Sample(window, table);
   }
   this->Internal->Table = std::move(table);
-  return { { vtkIBLStatistics::BRDFTable, 1, Size * Size, 4 * Size * Size } };
+  constexpr vtkTypeInt64 texels = vtkIBLBRDFTableBlocks * Size * Size;
+  return { { vtkIBLStatistics::BRDFTable, 1, texels, 2 * vtkIBLBRDFTableChannels * texels } };
 }
 
 void vtkIBLBRDFTable::Sample(vtkOpenGLRenderWindow* window, const vtkIBLGL::Texture& table)
@@ -75,7 +120,7 @@ void vtkIBLBRDFTable::Sample(vtkOpenGLRenderWindow* window, const vtkIBLGL::Text
   program.Set("geometry", this->GeometryTerm);
   program.Set("sampleCount", this->NumberOfSamples > 0 ? this->NumberOfSamples : 1024);
   ActiveProgram active(window, program);
-  BoundImage target(0, table, 0, GL_WRITE_ONLY, GL_RG16);
+  BoundImage target(0, table, 0, GL_READ_WRITE, GL_RGBA16);
   DispatchTiles(Size, 1);
 }
 
@@ -91,5 +136,5 @@ vtkSmartPointer<vtkImageData> vtkIBLBRDFTable::Read()
     vtkErrorMacro("The table is not built; call Update() first.");
     return nullptr;
   }
-  return this->Internal->Table.Read(0);
+  return this->Internal->Table.Read(0, 4);
 }

@@ -71,6 +71,7 @@ int vtkIBLBackground::RenderOpaqueGeometry(vtkViewport* viewport)
       gl.NoVertices = VertexArray::Make(window);
     }
     this->Lighting->SetLayerParameters(gl.Program);
+    this->Lighting->SetLampParameters(gl.Program, this->Blur);
     gl.Program.Set("blur", float(this->Blur));
 
     glm::vec2 scale;

@@ -122,7 +122,7 @@ int Texture::GetWidth(int level) const
   return width;
 }
 
-vtkSmartPointer<vtkImageData> Texture::Read(int level) const
+vtkSmartPointer<vtkImageData> Texture::Read(int level, int channels) const
 {
   GLint target = 0;
   GLint height = 0;
@@ -130,9 +130,10 @@ vtkSmartPointer<vtkImageData> Texture::Read(int level) const
   glGetTextureLevelParameteriv(this->Id(), level, GL_TEXTURE_HEIGHT, &height);
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(this->GetWidth(level), height, target == GL_TEXTURE_CUBE_MAP ? 6 : 1);
-  image->AllocateScalars(VTK_FLOAT, 3);
-  const vtkIdType bytes = 3 * image->GetNumberOfPoints() * vtkIdType(sizeof(float));
-  glGetTextureImage(this->Id(), level, GL_RGB, GL_FLOAT, GLsizei(bytes), image->GetScalarPointer());
+  image->AllocateScalars(VTK_FLOAT, channels);
+  const vtkIdType bytes = channels * image->GetNumberOfPoints() * vtkIdType(sizeof(float));
+  glGetTextureImage(
+    this->Id(), level, channels == 4 ? GL_RGBA : GL_RGB, GL_FLOAT, GLsizei(bytes), image->GetScalarPointer());
   CheckErrors("reading a texture back");
   return image;
 }
@@ -264,6 +265,14 @@ void Program::Set(const char* uniform, const glm::vec2& value) const
 void Program::Set(const char* uniform, const glm::vec3& value) const
 {
   glProgramUniform3fv(this->Id(), this->Locate(uniform), 1, &value.x);
+}
+
+void Program::Set(const char* uniform, const std::vector<glm::vec3>& values) const
+{
+  if (!values.empty())
+  {
+    glProgramUniform3fv(this->Id(), this->Locate(uniform), GLsizei(values.size()), &values.front().x);
+  }
 }
 
 void Program::Set(const char* uniform, const glm::mat3& value) const

@@ -14,6 +14,7 @@
 #include <glm/glm.hpp>
 
 #include <string>
+#include <vector>
 #include <utility>
 
 namespace vtkIBLGL
@@ -51,9 +52,9 @@ public:
   static Texture Cube(vtkOpenGLRenderWindow* window, int faceSize, int levels, GLenum format);
   static Texture Image2D(vtkOpenGLRenderWindow* window, int width, int height, GLenum format);
   int GetWidth(int level = 0) const;
-  /// Texels of one level as float RGB: n x n x 6 of a cube, face after face in GL's order, row 0 at t = -1; w x h x 1
-  /// of an image.
-  vtkSmartPointer<vtkImageData> Read(int level) const;
+  /// Texels of one level as float RGB or RGBA: n x n x 6 of a cube, face after face in GL's order, row 0 at t = -1; w x
+  /// h x 1 of an image.
+  vtkSmartPointer<vtkImageData> Read(int level, int channels = 3) const;
   using Object::Object;
 };
 
@@ -86,6 +87,7 @@ public:
   void Set(const char* uniform, float value) const;
   void Set(const char* uniform, const glm::vec2& value) const;
   void Set(const char* uniform, const glm::vec3& value) const;
+  void Set(const char* uniform, const std::vector<glm::vec3>& values) const;
   void Set(const char* uniform, const glm::mat3& value) const;
   using Object::Object;
 

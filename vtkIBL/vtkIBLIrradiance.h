@@ -47,8 +47,8 @@ public:
   ///@{
   /**
    * Keep bright texels out of the coefficients, and add their light in GetIrradiance() as that of points, exactly: what
-   * a texel has above a thousandth of all light, and above 100 times the mean. Then it is off by 2.3 %, 0.8 % and 0.2 %.
-   * Default off. Without effect on cube faces.
+   * a texel has above a thousandth of all light, and above 100 times the mean. Then it is off by 2.3 %, 0.8 % and 0.2
+   * %. Default off. Without effect on cube faces.
    */
   void SetKeepBrightTexels(bool keep);
   vtkGetMacro(KeepBrightTexels, bool);

@@ -6,18 +6,24 @@
 #include "vtkIBLCubeMap.h"
 #include "vtkIBLEnvironment.h"
 #include "vtkIBLGL.h"
+#include "vtkIBLLamps.h"
 #include "vtkIBLShaderSource.h"
+#include "vtkIBLShared.glsl"
 #include "vtkIBLSpecularChain.h"
 #include "vtkIBLStatistics.h"
 
 #include "vtkCamera.h"
+#include "vtkLight.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include <algorithm>
+#include <cmath>
 
 vtkStandardNewMacro(vtkIBLLighting);
 
@@ -58,7 +64,13 @@ vtkIBLLighting::~vtkIBLLighting() = default;
 void vtkIBLLighting::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "EnergyCompensation: " << this->EnergyCompensation << "\n";
+  os << indent << "ReflectionModel: " << (this->ReflectionModel == Physical ? "Physical" : "Classic") << "\n"
+     << indent << "EnergyCompensation: " << this->EnergyCompensation << "\n"
+     << indent << "BrightTexels: " << this->BrightTexels << "\n"
+     << indent << "SunInEnvironment: " << this->SunInEnvironment << "\n"
+     << indent << "SpecularOcclusion: " << this->SpecularOcclusion << "\n"
+     << indent << "HorizonOcclusion: " << this->HorizonOcclusion << "\n"
+     << indent << "SamplesPerPixel: " << this->SamplesPerPixel << "\n";
   for (vtkIBLStage* stage : { static_cast<vtkIBLStage*>(this->CubeMap), static_cast<vtkIBLStage*>(this->SpecularChain),
          static_cast<vtkIBLStage*>(this->BRDFTable) })
   {
@@ -99,6 +111,39 @@ vtkIBLBRDFTable* vtkIBLLighting::GetBRDFTable() const
 vtkIBLStatistics* vtkIBLLighting::GetStatistics() const
 {
   return this->Statistics;
+}
+
+template <typename T>
+void vtkIBLLighting::SetShaderOption(T& option, T value)
+{
+  if (value != option)
+  {
+    option = value;
+    this->ShaderTime.Modified();
+    this->Modified();
+  }
+}
+
+void vtkIBLLighting::SetReflectionModel(int model)
+{
+  this->SetShaderOption(this->ReflectionModel, std::clamp<int>(model, Physical, Classic));
+  this->BRDFTable->SetGeometryTerm(
+    this->ReflectionModel == Classic ? vtkIBLBRDFTable::SchlickSmith : vtkIBLBRDFTable::SmithCorrelated);
+}
+
+void vtkIBLLighting::SetEnergyCompensation(bool on)
+{
+  this->SetShaderOption(this->EnergyCompensation, on);
+}
+
+void vtkIBLLighting::SetSpecularOcclusion(bool on)
+{
+  this->SetShaderOption(this->SpecularOcclusion, on);
+}
+
+void vtkIBLLighting::SetHorizonOcclusion(bool on)
+{
+  this->SetShaderOption(this->HorizonOcclusion, on);
 }
 
 void vtkIBLLighting::SetSamplesPerPixel(int samples)
@@ -146,6 +191,9 @@ bool vtkIBLLighting::UpdateStages(vtkOpenGLRenderWindow* window, const vtkIBLSce
   const bool sampled = this->SamplesPerPixel > 0;
   this->SpecularChain->SetNeededRoughness(this->Needs.MinimumRoughness, this->Needs.MaximumRoughness);
   this->SpecularChain->SetIrradianceNeeded(this->Needs.Irradiance);
+  // A scene without reflections has its lamps in the irradiance map, exact enough.
+  this->SpecularChain->SetLampsApart(
+    this->BrightTexels && (this->Needs.MaximumRoughness > 0.0 || !this->SunInEnvironment));
   this->CubeMap->SetMipLevelsNeeded(sampled || this->SpecularChain->GetEngine() == vtkIBLSpecularChain::Sampled ||
     environment->GetNumberOfFaces() == 6);
   bool ready = this->BRDFTable->Update(window);
@@ -158,6 +206,8 @@ bool vtkIBLLighting::UpdateStages(vtkOpenGLRenderWindow* window, const vtkIBLSce
     ready = this->SpecularChain->Update(window) && ready;
   }
   environment->KeepLight();
+  this->SetShaderOption(
+    this->NumberOfLamps, std::max(this->SpecularChain->GetNumberOfLamps() - (this->SunInEnvironment ? 0 : 1), 0));
   return ready;
 }
 
@@ -212,6 +262,74 @@ void vtkIBLLighting::SetLayerParameters(const vtkIBLGL::Program& program) const
   program.Set("iblStoredScale", float(this->SpecularChain->GetStoredScale()));
 }
 
+namespace
+{
+// GGX widened by a lamp's size: half vectors turn by half as much as the light, and a Beckmann lobe, GGX's near its
+// peak, of alpha^2 has the variance alpha^2 / 2.
+double GetAddedAlpha2(double variance)
+{
+  return 0.5 * variance;
+}
+}
+
+void vtkIBLLighting::SetLampParameters(const vtkIBLGL::Program& program, double perceptualRoughness) const
+{
+  // The kernel of N = V = R; below the first layer's roughness as vtkIBLLighting.glsl fades lamps.
+  const double roughness = std::max(perceptualRoughness, vtkIBLSpecularChain::GetFirstRoughness());
+  const double share = std::min(perceptualRoughness / vtkIBLSpecularChain::GetFirstRoughness(), 1.0);
+  std::vector<glm::vec3> directions, powers, kernels;
+  for (int i = 0; i < this->SpecularChain->GetNumberOfLamps(); ++i)
+  {
+    double direction[3];
+    double power[3];
+    const double variance = this->SpecularChain->GetLamp(i, direction, power);
+    const double alpha2 = std::min(std::pow(roughness, 4.0) + GetAddedAlpha2(variance), 1.0);
+    const vtkIBLLamps::Kernel kernel = vtkIBLLamps::MakeKernel({ std::pow(alpha2, 0.25), share });
+    directions.emplace_back(direction[0], direction[1], direction[2]);
+    powers.emplace_back(power[0], power[1], power[2]);
+    kernels.emplace_back(kernel.K, kernel.OneMinusK, kernel.Scale);
+  }
+  program.Set("lampCount", static_cast<int>(directions.size()));
+  program.Set("lampDirections", directions);
+  program.Set("lampPowers", powers);
+  program.Set("lampKernels", kernels);
+}
+
+vtkSmartPointer<vtkLight> vtkIBLLighting::CreateSunLight()
+{
+  if (this->SpecularChain->GetNumberOfLamps() == 0)
+  {
+    vtkWarningMacro(
+      "The environment has no lamp that a light could stand for: no texel is above 20 times the mean, or "
+      "nothing was rendered yet, or BrightTexels is off. Render once first, with reflections in the scene.");
+    return nullptr;
+  }
+  double direction[3];
+  double power[3];
+  this->SpecularChain->GetLamp(0, direction, power);
+  double environmentFromWorld[3][3];
+  double worldFromEnvironment[3][3];
+  this->GetEnvironment()->GetEnvironmentFromWorld(&environmentFromWorld[0][0]);
+  vtkMath::Transpose3x3(environmentFromWorld, worldFromEnvironment);
+  vtkMath::Multiply3x3(worldFromEnvironment, direction, direction);
+  double scale[3];
+  this->GetEnvironment()->GetRadianceScale(scale);
+  for (int k = 0; k < 3; ++k)
+  {
+    power[k] *= scale[k];
+  }
+  const double intensity = *std::max_element(power, power + 3);
+  auto sun = vtkSmartPointer<vtkLight>::New();
+  sun->SetLightTypeToSceneLight();
+  sun->PositionalOff();
+  sun->SetFocalPoint(0.0, 0.0, 0.0);
+  sun->SetPosition(direction);
+  sun->SetIntensity(intensity);
+  sun->SetColor(power[0] / intensity, power[1] / intensity, power[2] / intensity);
+  this->SetSunInEnvironment(false);
+  return sun;
+}
+
 void vtkIBLLighting::SetShaderParameters(vtkShaderProgram* program, vtkRenderer* renderer)
 {
   // Layers are stored divided by a scale, the cube map as it is.
@@ -230,6 +348,7 @@ void vtkIBLLighting::SetShaderParameters(vtkShaderProgram* program, vtkRenderer*
     program->SetUniformi("iblIrradiance", this->Bound->Irradiance.GetUnit());
     program->SetUniformf("iblLayers", float(this->SpecularChain->GetNumberOfLayers()));
     program->SetUniformf("iblStoredScale", float(stored));
+    this->SetLamps(program, renderer);
   }
 
   float rows[9];
@@ -245,10 +364,52 @@ void vtkIBLLighting::SetShaderParameters(vtkShaderProgram* program, vtkRenderer*
   const float scale[3] = { float(rgb[0] * stored), float(rgb[1] * stored), float(rgb[2] * stored) };
   program->SetUniform3f("iblRadianceScale", scale);
   program->SetUniformi("iblParallelProjection", renderer->GetActiveCamera()->GetParallelProjection());
-  program->SetUniformi("iblEnergyCompensation", this->EnergyCompensation);
 }
 
-std::string vtkIBLLighting::GetShaderChunk() const
+void vtkIBLLighting::SetLamps(vtkShaderProgram* program, vtkRenderer* renderer)
 {
-  return vtkIBLAssembleChunk(this->SamplesPerPixel > 0 ? "vtkIBLLightingSampled.glsl" : "vtkIBLLighting.glsl");
+  float rows[9];
+  this->GetEnvironmentFromView(renderer, rows);
+  const glm::mat3 viewFromEnvironment = glm::inverse(glm::transpose(glm::make_mat3(rows)));
+  float directions[IBL_MAXIMUM_LAMPS][4];
+  float powers[IBL_MAXIMUM_LAMPS][3];
+  int count = 0;
+  for (int i = this->SunInEnvironment ? 0 : 1; i < this->SpecularChain->GetNumberOfLamps(); ++i, ++count)
+  {
+    double direction[3];
+    double power[3];
+    const double variance = this->SpecularChain->GetLamp(i, direction, power);
+    const glm::vec3 view = glm::normalize(viewFromEnvironment * glm::vec3(direction[0], direction[1], direction[2]));
+    directions[count][3] = float(GetAddedAlpha2(variance));
+    for (int k = 0; k < 3; ++k)
+    {
+      directions[count][k] = view[k];
+      powers[count][k] = float(power[k] / this->SpecularChain->GetStoredScale());
+    }
+  }
+  if (count > 0)
+  {
+    program->SetUniform4fv("iblLampDirections", count, directions);
+    program->SetUniform3fv("iblLampPowers", count, powers);
+  }
+}
+
+std::string vtkIBLLighting::GetShaderChunk(const std::vector<std::string>& features) const
+{
+  std::string defines;
+  for (const std::string& feature : features)
+  {
+    defines += "#define " + feature + "\n";
+  }
+  if (this->SpecularOcclusion)
+  {
+    defines += "#define IBL_SPECULAR_OCCLUSION\n";
+  }
+  const char* energy = this->ReflectionModel == Classic ? "IBL_CLASSIC"
+    : this->EnergyCompensation                          ? "IBL_MULTIPLE_SCATTER"
+                                                        : "IBL_SINGLE_SCATTER";
+  defines += "#define IBL_LAMPS " + std::to_string(this->NumberOfLamps) + "\n";
+  defines += std::string("#define IBL_ENERGY ") + energy + "\n";
+  return defines +
+    vtkIBLAssembleChunk(this->SamplesPerPixel > 0 ? "vtkIBLLightingSampled.glsl" : "vtkIBLLighting.glsl");
 }

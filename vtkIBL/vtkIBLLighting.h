@@ -14,15 +14,18 @@
 #include "vtkIBLSceneNeeds.h"
 #include "vtkNew.h"
 #include "vtkObject.h"
+#include "vtkSmartPointer.h"
 
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
+#include <vector> // For std::vector
 
 class vtkIBLBRDFTable;
 class vtkIBLCubeMap;
 class vtkIBLEnvironment;
 class vtkIBLSpecularChain;
 class vtkIBLStatistics;
+class vtkLight;
 class vtkOpenGLRenderWindow;
 class vtkRenderer;
 class vtkShaderProgram;
@@ -62,15 +65,73 @@ public:
    */
   vtkIBLStatistics* GetStatistics() const;
 
+  enum ReflectionModels
+  {
+    Physical, ///< GGX, height-correlated Smith, Schlick, by lobes fitted to theirs
+    Classic   ///< as other real-time renderers have it: Schlick-Smith with k = alpha/2, along the mirror direction, and
+            ///< a Fresnel term of the normal's angle, dampened by roughness. To match their pictures; 2 to 3 times the
+            ///< error
+  };
+  ///@{
+  /**
+   * What surfaces do with light. Default Physical.
+   */
+  void SetReflectionModel(int model);
+  vtkGetMacro(ReflectionModel, int);
+  ///@}
+
   ///@{
   /**
    * Give back the light that rough surfaces lose in a single-scattering model (Fdez-Aguera 2019): white stays white at
-   * any roughness. Default on. Off is the plain split sum, in which a white metal of roughness 1 reflects 31 % at
-   * normal incidence.
+   * any roughness, for metals, dielectrics and mixtures. Default on. Off is the plain integral of GGX over a matt base
+   * under Schlick's term, in which a white metal of roughness 1 reflects 31 % at normal incidence. Classic has it
+   * always.
    */
-  vtkSetMacro(EnergyCompensation, bool);
+  void SetEnergyCompensation(bool on);
   vtkGetMacro(EnergyCompensation, bool);
   vtkBooleanMacro(EnergyCompensation, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Shade the strongest lamps of the environment, at most eight, exactly: the sun, windows, bulbs. Default on: for a
+   * light more a lamp it halves the error of metals where there is a sun. Off: they are in the layers, as all else.
+   */
+  vtkSetMacro(BrightTexels, bool);
+  vtkGetMacro(BrightTexels, bool);
+  vtkBooleanMacro(BrightTexels, bool);
+  ///@}
+
+  ///@{
+  /**
+   * A directional light that shines as the environment's strongest lamp does, at its present rotation, intensity and
+   * tint, so that VTK's shadow passes can use it; add it to a renderer. From then on SunInEnvironment is off: surfaces
+   * get that lamp from nowhere else. (Mirrors and the background still show it.) Null, with a warning, where the
+   * environment, as of the last Update(), has no lamp.
+   */
+  vtkSmartPointer<vtkLight> CreateSunLight();
+  vtkSetMacro(SunInEnvironment, bool);
+  vtkGetMacro(SunInEnvironment, bool);
+  vtkBooleanMacro(SunInEnvironment, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Ambient occlusion hides a reflection as much as it hides the directions that the reflection comes from (Lagarde &
+   * de Rousiers 2014). Default on. Off: as much as diffuse light.
+   */
+  void SetSpecularOcclusion(bool on);
+  vtkGetMacro(SpecularOcclusion, bool);
+  vtkBooleanMacro(SpecularOcclusion, bool);
+  ///@}
+
+  ///@{
+  /**
+   * On surfaces with a normal map, reflections that would come from below the surface itself fade out. Default on.
+   */
+  void SetHorizonOcclusion(bool on);
+  vtkGetMacro(HorizonOcclusion, bool);
+  vtkBooleanMacro(HorizonOcclusion, bool);
   ///@}
 
   ///@{
@@ -101,18 +162,19 @@ public:
   void Deactivate();
   void SetShaderParameters(vtkShaderProgram* program, vtkRenderer* renderer);
   void SetLayerParameters(const vtkIBLGL::Program& program) const; // what vtkIBLLayers.glsl takes
+  void SetLampParameters(const vtkIBLGL::Program& program, double perceptualRoughness) const; // and vtkIBLBackgroundFS
   ///@}
 
   ///@{
   /**
-   * GLSL 1.50 whose global names all begin with ibl, and which defines
+   * GLSL 1.50 whose global names all begin with ibl, with what shaders/vtkIBLSurface.glsl has, and among it
    *
-   *     vec3 iblEnvironmentLight(vec3 normalVC, vec3 positionVC, vec3 albedo, float perceptualRoughness, float
-   * metallic, float baseF0, vec3 edgeTint)
+   *     iblOutgoing iblEnvironmentLight(iblMaterial material, vec3 positionVC)
    *
-   * the radiance that a surface sends to the camera; and when that text last changed.
+   * the radiance that a surface sends to the camera. `features` are names of that file to define, IBL_COAT, say. And
+   * when the text last changed.
    */
-  std::string GetShaderChunk() const;
+  std::string GetShaderChunk(const std::vector<std::string>& features) const;
   vtkMTimeType GetShaderTime() const { return this->ShaderTime.GetMTime(); }
   ///@}
 
@@ -142,7 +204,16 @@ private:
   vtkNew<vtkIBLCubeMap> CubeMap;
   vtkNew<vtkIBLSpecularChain> SpecularChain;
   vtkNew<vtkIBLBRDFTable> BRDFTable;
+  template <typename T>
+  void SetShaderOption(T& option, T value);
+  void SetLamps(vtkShaderProgram* program, vtkRenderer* renderer);
+  int ReflectionModel = Physical;
   bool EnergyCompensation = true;
+  bool BrightTexels = true;
+  bool SunInEnvironment = true;
+  int NumberOfLamps = 0; // that shaders know of
+  bool SpecularOcclusion = true;
+  bool HorizonOcclusion = true;
   int SamplesPerPixel = 0;
   vtkTimeStamp ShaderTime;
   vtkIBLSceneNeeds Needs; // since the light is what it is

@@ -7,6 +7,7 @@
 #include "vtkIBLGLHeader.h"
 #include "vtkIBLLighting.h"
 
+#include "vtkActor.h"
 #include "vtkFramebufferPass.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -17,6 +18,7 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkProp.h"
+#include "vtkProperty.h"
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
@@ -129,6 +131,9 @@ void vtkIBLRenderPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "BackgroundVisible: " << this->BackgroundVisible << "\n"
      << indent << "BackgroundBlur: " << this->BackgroundBlur << "\n"
      << indent << "OutputEncoding: " << (this->OutputEncoding == Display ? "Display" : "Linear") << "\n"
+     << indent << "LightNonPBR: " << this->LightNonPBR << "\n"
+     << indent << "TranslucentFresnel: " << this->TranslucentFresnel << "\n"
+     << indent << "DirectOcclusion: " << this->DirectOcclusion << "\n"
      << indent << "DelegatePass: " << this->DelegatePass.Get() << "\n"
      << indent << "Lighting:\n";
   this->Lighting->PrintSelf(os, indent.GetNextIndent());
@@ -164,6 +169,31 @@ void vtkIBLRenderPass::SetOutputEncoding(int encoding)
   }
 }
 
+void vtkIBLRenderPass::SetShaderOption(bool& option, bool value)
+{
+  if (value != option)
+  {
+    option = value;
+    this->ShaderTime.Modified();
+    this->Modified();
+  }
+}
+
+void vtkIBLRenderPass::SetLightNonPBR(bool on)
+{
+  this->SetShaderOption(this->LightNonPBR, on);
+}
+
+void vtkIBLRenderPass::SetTranslucentFresnel(bool on)
+{
+  this->SetShaderOption(this->TranslucentFresnel, on);
+}
+
+void vtkIBLRenderPass::SetDirectOcclusion(bool on)
+{
+  this->SetShaderOption(this->DirectOcclusion, on);
+}
+
 void vtkIBLRenderPass::SetDelegatePass(vtkRenderPass* pass)
 {
   if (this->DelegatePass != pass)
@@ -184,7 +214,7 @@ void vtkIBLRenderPass::Render(const vtkRenderState* state)
   this->NumberOfRenderedProps = 0;
   vtkRenderer* renderer = state->GetRenderer();
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
-  vtkIBLSceneNeeds needs = vtkIBLSceneNeeds::Of(state->GetPropArray(), state->GetPropArrayCount());
+  vtkIBLSceneNeeds needs = vtkIBLSceneNeeds::Of(state->GetPropArray(), state->GetPropArrayCount(), this->LightNonPBR);
   if (this->BackgroundVisible)
   {
     needs.AddRoughness(this->BackgroundBlur, this->BackgroundBlur);
@@ -283,6 +313,9 @@ vtkSmartPointer<vtkImageData> vtkIBLRenderPass::CaptureRadiance(vtkRenderer* ren
   const int encoding = this->OutputEncoding;
   vtkNew<vtkFramebufferPass> framebuffer;
   framebuffer->SetColorFormat(vtkTextureObject::Float32);
+  // Depth is copied from there for translucent surfaces, and OpenGL copies between equal formats only.
+  framebuffer->SetDepthFormat(
+    window->GetDepthBufferSize() == 32 ? vtkTextureObject::Fixed32 : vtkTextureObject::Fixed24);
   framebuffer->SetDelegatePass(this);
   const vtkSmartPointer<vtkIBLRenderPass> alive = this; // SetPass() lets go
   this->SetOutputEncoding(Linear);
@@ -307,29 +340,139 @@ vtkSmartPointer<vtkImageData> vtkIBLRenderPass::CaptureRadiance(vtkRenderer* ren
 }
 
 //------------------------------------------------------------------------------
+namespace
+{
+bool Replace(std::string& shader, const std::string& what, const std::string& with)
+{
+  return vtkShaderProgram::Substitute(shader, what, with, false);
+}
+
+// Whether a surface is all dielectric, or all metal: then there is half as much to do. VTK makes a new shader when the
+// property changes.
+void AddMetallic(vtkProp* prop, std::vector<std::string>& features)
+{
+  auto* actor = vtkActor::SafeDownCast(prop);
+  if (actor && !actor->GetProperty()->GetTexture("materialTex"))
+  {
+    const double metallic = actor->GetProperty()->GetMetallic();
+    if (metallic <= 0.0 || metallic >= 1.0)
+    {
+      features.push_back(metallic <= 0.0 ? "IBL_DIELECTRIC" : "IBL_METAL");
+    }
+  }
+}
+
+bool Contains(const std::string& shader, const char* what)
+{
+  return shader.find(what) != std::string::npos;
+}
+
+// iblMaterial out of the variables that VTK's PBR shader has by then, in every version from 9.1 to 9.7; and which of
+// them it has.
+std::string MakePBRMaterial(const std::string& shader, bool horizon, std::vector<std::string>& features)
+{
+  std::string material = "  iblMaterial iblSurface;\n"
+                         "  iblSurface.normal = N;\n"
+                         "  iblSurface.albedo = albedo;\n"
+                         "  iblSurface.edgeTint = edgeTintUniform;\n"
+                         "  iblSurface.perceptualRoughness = roughness;\n"
+                         "  iblSurface.metallic = metallic;\n"
+                         "  iblSurface.baseF0 = baseF0Uniform;\n";
+  if (Contains(shader, "  float ao = material.r;"))
+  {
+    features.push_back("IBL_OCCLUSION");
+    material += "  iblSurface.occlusion = mix(1.0, ao, aoStrengthUniform);\n";
+  }
+  if (horizon)
+  {
+    features.push_back("IBL_HORIZON");
+    material += "  iblSurface.geometricNormal = iblGeometricNormal;\n";
+  }
+  if (Contains(shader, "  float at = "))
+  {
+    features.push_back("IBL_ANISOTROPY");
+    material += "  iblSurface.tangent = tangentVC;\n"
+                "  iblSurface.bitangent = bitangentVC;\n"
+                "  iblSurface.alpha = vec2(at, ab);\n";
+  }
+  if (Contains(shader, "  vec3 coatN = "))
+  {
+    features.push_back("IBL_COAT");
+    material += "  iblSurface.coatNormal = coatN;\n"
+                "  iblSurface.coatTint = coatColorFactor;\n"
+                "  iblSurface.coatRoughness = coatRoughness;\n"
+                "  iblSurface.coatStrength = coatStrength;\n"
+                "  iblSurface.coatF0 = coatF0Uniform;\n";
+  }
+  return material;
+}
+
+// VTK's other shading as a material: matt, and glossy as far as its specular colour goes. Its colours are display's.
+const char* const NonPBRMaterial =
+  "  iblMaterial iblSurface;\n"
+  "  iblSurface.normal = normalVCVSOutput;\n"
+  "  iblSurface.albedo = pow(max(diffuseColor, vec3(0.0)), vec3(2.2));\n"
+  "  iblSurface.edgeTint = vec3(1.0);\n"
+  "  iblSurface.perceptualRoughness = sqrt(sqrt(2.0 / (specularPower + 2.0)));\n"
+  "  iblSurface.metallic = 0.0;\n"
+  "  iblSurface.baseF0 = 0.08 * max(specularColor.r, max(specularColor.g, specularColor.b));\n";
+
+const char* const AddAll = "  color += iblRadianceScale * (iblLight.diffuse + iblLight.specular);\n";
+
+// What is reflected is not let through: a reflection keeps its strength on a surface however clear.
+const char* const AddTranslucent =
+  "  float iblOpacity = mix(opacity, 1.0, clamp(dot(iblLight.reflectance, vec3(1.0 / 3.0)), 0.0, 1.0));\n"
+  "  color = (opacity * (color + iblRadianceScale * iblLight.diffuse) + iblRadianceScale * iblLight.specular) / "
+  "max(iblOpacity, 1e-6);\n"
+  "  opacity = iblOpacity;\n";
+}
+
 bool vtkIBLRenderPass::PostReplaceShaderValues(
-  std::string&, std::string&, std::string& fragmentShader, vtkAbstractMapper*, vtkProp*)
+  std::string&, std::string&, std::string& fragmentShader, vtkAbstractMapper*, vtkProp* prop)
 {
   if (!this->Lit)
   {
     return true;
   }
-  // Where VTK adds its direct light, in every version from 9.1 to 9.7. Unlit shaders have no such line and need none.
-  const std::string direct = "  color += Lo;\n";
-  // VTK's own D is 0/0 at roughness 0 where H = N, even for a light of intensity 0.
-  const std::string environment =
-    "  Lo = mix(Lo, vec3(0.0), isnan(Lo));\n"
-    "  color += iblEnvironmentLight(\n"
-    "    N, vertexVC.xyz, albedo, roughness, metallic, baseF0Uniform, edgeTintUniform);\n";
-  if (!vtkShaderProgram::Substitute(fragmentShader, direct, environment + direct, false))
+  std::vector<std::string> features;
+  const std::string evaluate = "  iblOutgoing iblLight = iblEnvironmentLight(iblSurface, vertexVC.xyz);\n";
+  const std::string add = this->TranslucentFresnel ? AddTranslucent : AddAll;
+  const std::string emission = "  color += emissiveColor;\n";
+  // Unlit shaders have none of these lines and need none.
+  if (Contains(fragmentShader, emission.c_str()))
+  {
+    const std::string bumped = "  vec3 normalTS = ";
+    const bool horizon = this->Lighting->GetHorizonOcclusion() &&
+      Replace(fragmentShader, bumped, "  vec3 iblGeometricNormal = normalVCVSOutput;\n" + bumped);
+    // VTK's own D is 0/0 at roughness 0 where H = N, even for a light of intensity 0.
+    const std::string direct = "  color += Lo;\n";
+    Replace(fragmentShader, direct, "  Lo = mix(Lo, vec3(0.0), isnan(Lo));\n" + direct);
+    if (!this->DirectOcclusion)
+    {
+      Replace(fragmentShader, "  color = mix(color, color * ao, aoStrengthUniform);\n", "");
+    }
+    AddMetallic(prop, features);
+    Replace(fragmentShader, emission, emission + MakePBRMaterial(fragmentShader, horizon, features) + evaluate + add);
+    if (this->OutputEncoding == Linear)
+    {
+      Replace(fragmentShader, "color = pow(color, vec3(1.0/2.2));", "");
+      Replace(fragmentShader, "gl_FragData[0].rgb = pow(gl_FragData[0].rgb, vec3(1.0/2.2));", ""); // 9.7
+    }
+  }
+  else if (this->LightNonPBR && Contains(fragmentShader, "vec4(ambientColor + diffuse + specular, opacity)"))
+  {
+    features.push_back("IBL_DIELECTRIC");
+    Replace(fragmentShader, "//VTK::Light::Impl",
+      "\n  {\n  vec3 color = pow(max(gl_FragData[0].rgb, vec3(0.0)), vec3(2.2));\n" + std::string(NonPBRMaterial) +
+        evaluate + add + "  gl_FragData[0] = vec4(" +
+        (this->OutputEncoding == Linear ? "color" : "pow(color, vec3(1.0 / 2.2))") +
+        ", opacity);\n  }\n  //VTK::Light::Impl");
+  }
+  else
   {
     return true;
   }
-  vtkShaderProgram::Substitute(fragmentShader, "void main()", this->Lighting->GetShaderChunk() + "void main()", false);
-  if (this->OutputEncoding == Linear)
-  {
-    vtkShaderProgram::Substitute(fragmentShader, "color = pow(color, vec3(1.0/2.2));", "", false);
-  }
+  Replace(fragmentShader, "void main()", this->Lighting->GetShaderChunk(features) + "void main()");
   return true;
 }
 

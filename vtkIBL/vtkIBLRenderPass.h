@@ -83,6 +83,38 @@ public:
 
   ///@{
   /**
+   * Light actors of flat, Gouraud and Phong interpolation, too: a matt surface of their colour, taken as the screen's,
+   * that is as glossy as their specular colour (f0 = 0.08 of it) and power say (perceptualRoughness = (2/(n+2))^(1/4)).
+   * In a white room of radiance 1, or under NormalizeExposure in the mean, a surface shows its own colour: colour maps
+   * stay true. Default off: they are as VTK shades them.
+   */
+  void SetLightNonPBR(bool on);
+  vtkGetMacro(LightNonPBR, bool);
+  vtkBooleanMacro(LightNonPBR, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Reflections stay as strong as they are on surfaces of opacity below 1, which become more opaque towards their
+   * edges, as glass does. Default off: all is blended by the opacity.
+   */
+  void SetTranslucentFresnel(bool on);
+  vtkGetMacro(TranslucentFresnel, bool);
+  vtkBooleanMacro(TranslucentFresnel, bool);
+  ///@}
+
+  ///@{
+  /**
+   * A texture's ambient occlusion hides VTK's own lights, too, as it does without this pass. Default on. Off: it hides
+   * the environment only, which is what it was made for.
+   */
+  void SetDirectOcclusion(bool on);
+  vtkGetMacro(DirectOcclusion, bool);
+  vtkBooleanMacro(DirectOcclusion, bool);
+  ///@}
+
+  ///@{
+  /**
    * The pass that draws the scene, vtkSSAOPass or a vtkRenderStepsPass, say. Null, the default: as a renderer without a
    * pass draws.
    */
@@ -120,6 +152,8 @@ private:
 
   void RenderScene(const vtkRenderState* state);
 
+  void SetShaderOption(bool& option, bool value);
+
   vtkNew<vtkIBLLighting> Lighting;
   vtkNew<vtkIBLBackground> Background;
   vtkNew<vtkLight> NoLight;
@@ -127,6 +161,9 @@ private:
   bool BackgroundVisible = false;
   double BackgroundBlur = 0.0;
   int OutputEncoding = Display;
+  bool LightNonPBR = false;
+  bool TranslucentFresnel = false;
+  bool DirectOcclusion = true;
   bool Lit = false;                // there is light to add in this frame
   vtkRenderer* Renderer = nullptr; // while Render runs
   vtkTimeStamp ShaderTime;         // when the GLSL that the hooks write last changed

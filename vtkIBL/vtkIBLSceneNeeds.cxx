@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIBLSceneNeeds.h"
 
+#include "vtkIBLBRDFTable.h"
+
 #include "vtkActor.h"
 #include "vtkAssemblyPath.h"
 #include "vtkProp.h"
 #include "vtkProperty.h"
 
 #include <algorithm>
+#include <cmath>
 
 void vtkIBLSceneNeeds::AddRoughness(double minimum, double maximum)
 {
@@ -31,28 +34,50 @@ vtkIBLSceneNeeds vtkIBLSceneNeeds::Everything()
 
 namespace
 {
-vtkIBLSceneNeeds OfActor(vtkActor* actor)
+// A boundary of that roughness reads layers from the narrowest of its fitted lobes up.
+void AddLobes(vtkIBLSceneNeeds& needs, double narrow, double wide)
+{
+  needs.AddRoughness(vtkIBLBRDFTable::GetNarrowestLobe(narrow), wide);
+}
+
+vtkIBLSceneNeeds OfActor(vtkActor* actor, bool nonPBR)
 {
   vtkIBLSceneNeeds needs;
   vtkProperty* property = actor->GetProperty();
-  if (property->GetInterpolation() != VTK_PBR || !property->GetLighting())
+  const bool isPBR = property->GetInterpolation() == VTK_PBR;
+  if (!property->GetLighting() || (!isPBR && !nonPBR))
   {
     return needs;
   }
   needs.Irradiance = true;
+  if (!isPBR)
+  {
+    if (property->GetSpecular() > 0.0)
+    {
+      const double roughness = std::pow(2.0 / (property->GetSpecularPower() + 2.0), 0.25);
+      AddLobes(needs, roughness, roughness);
+    }
+    return needs;
+  }
   if (property->GetTexture("materialTex"))
   {
     needs.AddRoughness(0.0, 1.0);
   }
   else if (property->GetMetallic() > 0.0 || property->GetBaseIOR() != 1.0)
   {
-    needs.AddRoughness(property->GetRoughness(), property->GetRoughness());
+    // An anisotropic lobe is made of narrower ones: its alpha times the aspect (VTK's, after Burley 2012).
+    const double aspect = std::sqrt(1.0 - 0.9 * std::clamp(property->GetAnisotropy(), 0.0, 1.0));
+    AddLobes(needs, property->GetRoughness() * std::sqrt(aspect), property->GetRoughness());
+  }
+  if (property->GetCoatStrength() > 0.0)
+  {
+    AddLobes(needs, property->GetCoatRoughness(), property->GetCoatRoughness());
   }
   return needs;
 }
 }
 
-vtkIBLSceneNeeds vtkIBLSceneNeeds::Of(vtkProp* const* props, int count)
+vtkIBLSceneNeeds vtkIBLSceneNeeds::Of(vtkProp* const* props, int count, bool nonPBR)
 {
   vtkIBLSceneNeeds needs;
   for (int i = 0; i < count; ++i)
@@ -66,7 +91,7 @@ vtkIBLSceneNeeds vtkIBLSceneNeeds::Of(vtkProp* const* props, int count)
     {
       vtkProp* leaf = path->GetLastNode()->GetViewProp();
       auto* actor = vtkActor::SafeDownCast(leaf);
-      needs.Add(actor ? OfActor(actor) : leaf->IsA("vtkVolume") ? vtkIBLSceneNeeds() : Everything());
+      needs.Add(actor ? OfActor(actor, nonPBR) : leaf->IsA("vtkVolume") ? vtkIBLSceneNeeds() : Everything());
     }
   }
   return needs;

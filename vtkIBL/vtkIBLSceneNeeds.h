@@ -40,10 +40,10 @@ struct VTKIBL_EXPORT vtkIBLSceneNeeds
   static vtkIBLSceneNeeds Everything();
 
   /**
-   * What visible actors of `props` with PBR interpolation and lighting on need. A texture of roughness and metallic
-   * counts as all of [0, 1], and so does a prop whose kind is not known.
+   * What visible actors of `props` with lighting on need, those of PBR interpolation or all. A texture of roughness and
+   * metallic counts as all of [0, 1], and so does a prop whose kind is not known.
    */
-  static vtkIBLSceneNeeds Of(vtkProp* const* props, int count);
+  static vtkIBLSceneNeeds Of(vtkProp* const* props, int count, bool nonPBR = false);
 };
 
 #endif

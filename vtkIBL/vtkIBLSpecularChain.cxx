@@ -6,8 +6,10 @@
 #include "vtkIBLEnvironment.h"
 #include "vtkIBLGL.h"
 #include "vtkIBLLadder.h"
+#include "vtkIBLLampClusters.h"
 #include "vtkIBLRadianceImage.h"
 #include "vtkIBLSampledFilter.h"
+#include "vtkIBLShared.glsl"
 #include "vtkIBLThreads.h"
 
 #include "vtkImageData.h"
@@ -27,6 +29,32 @@ namespace
 // At 32^2 the cosine lobe is read to 3e-4.
 constexpr int IrradianceFaceSize = 32;
 
+// Takes the strongest lamps out of `spectrum`.
+std::vector<vtkIBLLampCluster> TakeLamps(std::shared_ptr<const vtkIBLSpectrum>& spectrum)
+{
+  const std::vector<vtkIBLBrightTexel>& all = spectrum->GetBrightTexels();
+  std::vector<vtkIBLLampCluster> lamps = vtkIBLFindLampClusters(all, vtkIBLSpectrum::LampRadius);
+  lamps.resize(std::min(lamps.size(), std::size_t(IBL_MAXIMUM_LAMPS)));
+  std::vector<bool> taken(all.size(), false);
+  for (const vtkIBLLampCluster& lamp : lamps)
+  {
+    for (int i : lamp.Texels)
+    {
+      taken[i] = true;
+    }
+  }
+  std::vector<vtkIBLBrightTexel> left;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    if (!taken[i])
+    {
+      left.push_back(all[i]);
+    }
+  }
+  spectrum = std::make_shared<vtkIBLSpectrum>(spectrum->GetOrder(), spectrum->GetCoefficients(), std::move(left));
+  return lamps;
+}
+
 // The ladder of the sampled engine: its own errors are those of samples, percents, and this adds no more.
 constexpr int SampledFaceSize = 128;
 }
@@ -43,7 +71,9 @@ struct vtkIBLSpecularChain::Layers
   vtkIBLLadder Ladder;
   double PredictedError = -1.0;
   double StoredScale = 1.0;
+  bool LampsApart = false;
   std::vector<vtkIBLBrightTexel> BrightTexels;
+  std::vector<vtkIBLLampCluster> Lamps; // what layers are without
   Texture Odd, Even, IrradianceMap;
   std::vector<bool> Made; // by layer; 0 is the irradiance map
   const Texture& GetTexture(int layer) const
@@ -74,6 +104,7 @@ void vtkIBLSpecularChain::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "FaceSize: " << this->FaceSize << "\n"
      << indent << "NumberOfSamples: " << this->NumberOfSamples << "\n"
      << indent << "FitReading: " << this->FitReading << "\n"
+     << indent << "LampsApart: " << this->LampsApart << "\n"
      << indent << "NeededRoughness: " << this->NeededRoughness[0] << " " << this->NeededRoughness[1] << "\n"
      << indent << "IrradianceNeeded: " << this->IrradianceNeeded << "\n"
      << indent << "NumberOfLayers: " << this->GetNumberOfLayers() << "\n"
@@ -164,6 +195,22 @@ double vtkIBLSpecularChain::GetBrightTexel(int index, double direction[3], doubl
   return texel.SolidAngle;
 }
 
+int vtkIBLSpecularChain::GetNumberOfLamps() const
+{
+  return static_cast<int>(this->Internal->Out.Lamps.size());
+}
+
+double vtkIBLSpecularChain::GetLamp(int index, double direction[3], double power[3]) const
+{
+  const vtkIBLLampCluster& lamp = this->Internal->Out.Lamps.at(index);
+  for (int k = 0; k < 3; ++k)
+  {
+    direction[k] = lamp.Direction[k];
+    power[k] = lamp.Power[k];
+  }
+  return lamp.Variance;
+}
+
 const vtkIBLGL::Texture& vtkIBLSpecularChain::GetOddLayers() const
 {
   return this->Internal->Out.Odd;
@@ -222,10 +269,11 @@ std::vector<vtkIBLStatistics::Work> vtkIBLSpecularChain::Build(vtkOpenGLRenderWi
   next.Samples = next.Engine == Spectral ? 0 : this->NumberOfSamples;
   next.FitReading = this->FitReading;
   next.ErrorTolerance = this->ErrorTolerance;
+  next.LampsApart = this->LampsApart && next.Engine == Spectral;
   next.Sharpest = anyRoughness ? std::max(this->NeededRoughness[0], vtkIBLLadder::FirstRoughness) : 1.0;
   next.StoredScale = environment->GetMeanLuminance() > 0.0 ? environment->GetMeanLuminance() : 1.0;
   const auto source = [](const Layers& x)
-  { return std::tie(x.LightTime, x.Engine, x.Samples, x.FitReading, x.ErrorTolerance); };
+  { return std::tie(x.LightTime, x.Engine, x.Samples, x.FitReading, x.ErrorTolerance, x.LampsApart); };
   const bool sameSource = gl.Out.Odd && source(next) == source(gl.Out);
 
   std::shared_ptr<const vtkIBLSpectrum> spectrum;
@@ -233,6 +281,10 @@ std::vector<vtkIBLStatistics::Work> vtkIBLSpecularChain::Build(vtkOpenGLRenderWi
   {
     spectrum = environment->GetSpectrum(vtkIBLSpectrum::RequiredOrder(next.Sharpest));
     next.BrightTexels = spectrum->GetBrightTexels();
+    if (next.LampsApart)
+    {
+      next.Lamps = TakeLamps(spectrum);
+    }
   }
   if (sameSource && next.Sharpest >= gl.Out.Sharpest)
   {

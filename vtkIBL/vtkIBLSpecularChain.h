@@ -103,6 +103,26 @@ public:
 
   ///@{
   /**
+   * Leave the strongest lamps, at most eight, out of layers and irradiance map, for a shader that takes them as lights.
+   * A lamp is what lies side by side of texels above 20 times the mean, within 0.05 rad. Default off: all light is in
+   * the layers. The sampled engine has no lamps.
+   */
+  vtkSetMacro(LampsApart, bool);
+  vtkGetMacro(LampsApart, bool);
+  vtkBooleanMacro(LampsApart, bool);
+  ///@}
+
+  ///@{
+  /**
+   * What was left out, strongest first: unit direction in the environment's frame, and radiance times solid angle [sr];
+   * returns the variance of direction along either tangent [rad^2].
+   */
+  int GetNumberOfLamps() const;
+  double GetLamp(int index, double direction[3], double power[3]) const;
+  ///@}
+
+  ///@{
+  /**
    * The roughness that will be read, in [0, 1]; a minimum above the maximum: none. Layers outside are not made; when
    * the range grows, those that are missing are added. Default [0, 1]. And whether the irradiance map will be. Default
    * on.
@@ -163,8 +183,9 @@ public:
 
   ///@{
   /**
-   * Texels that the spectral engine took out of the environment before filtering, and gave back as exact lobes: unit
-   * direction in the environment's frame and radiance; returns the solid angle [sr]. None with the sampled engine.
+   * Texels that the spectral engine took out of the environment before filtering, and gave back as exact lobes but for
+   * lamps: unit direction in the environment's frame and radiance; returns the solid angle [sr]. None with the sampled
+   * engine.
    */
   int GetNumberOfBrightTexels() const;
   double GetBrightTexel(int index, double direction[3], double radiance[3]) const;
@@ -207,6 +228,7 @@ private:
   int FaceSize = 0;
   int NumberOfSamples = 64;
   bool FitReading = true;
+  bool LampsApart = false;
   double NeededRoughness[2] = { 0.0, 1.0 };
   bool IrradianceNeeded = true;
   int LastNumberOfLayersMade = 0;

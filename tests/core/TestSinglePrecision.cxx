@@ -215,7 +215,11 @@ TEST(SinglePrecision, SamplesAndSplitSum)
       {
         const glm::vec3 V(std::sqrt(1 - NoV * NoV), 0, NoV);
         half.Compare({ point.x, point.y, NoV, alpha },
-          [&](auto& shader) { return shader.iblVisibleHalfVectorGGX(point, V, alpha); });
+          [&](auto& shader)
+          {
+            using Vec2 = typename std::decay_t<decltype(shader)>::vec2;
+            return shader.iblVisibleHalfVectorGGX(point, V, Vec2(alpha), shader.iblVisibleBound(V, Vec2(alpha)).x);
+          });
       }
     }
   }
@@ -243,7 +247,7 @@ TEST(SinglePrecision, TablesAndEnergy)
     const float r = i / 2000.0f, l = r * 10;
     layer.Compare({ r }, [&](auto& shader) { return shader.iblLayerFromPerceptualRoughness(r, 10); });
     roughness.Compare({ l }, [&](auto& shader) { return shader.iblPerceptualRoughnessFromLayer(l, 10); });
-    table.Compare({ r }, [&](auto& shader) { return shader.iblBRDFTableCoordinates(r, 1 - r, 64); });
+    table.Compare({ r }, [&](auto& shader) { return shader.iblBRDFTableCoordinates(r, 1 - r, 1, 64); });
   }
   for (float f : UnitInterval())
   {
@@ -252,7 +256,8 @@ TEST(SinglePrecision, TablesAndEnergy)
       const glm::vec3 f0(f, 0.5f * f, 0.04f), f90(1.0f, f, 1.0f);
       const glm::vec2 ab = std::max(albedo, 0.01f) * glm::vec2(0.75f, 0.25f);
       once.Compare({ f, albedo }, [&](auto& shader) { return shader.iblSingleScatter(f0, f90, ab); });
-      again.Compare({ f, albedo }, [&](auto& shader) { return shader.iblMultipleScatter(f0, f90, ab); });
+      again.Compare({ f, albedo },
+        [&](auto& shader) { return shader.iblMultipleScatter(f0, f90, shader.iblSingleScatter(f0, f90, ab), ab); });
     }
   }
 }

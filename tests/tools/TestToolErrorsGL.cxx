@@ -91,8 +91,6 @@ TEST_F(TestToolErrorsGL, WhatCannotBeReadIsStatusOne)
   this->ExpectFailure(1, "'broken.vtp'", "render broken.vtp" + light);
   this->ExpectFailure(1, "'broken.ply': it is damaged", "render broken.ply" + light);
   this->ExpectFailure(1, "'empty.stl' has no faces", "render broken.vtp t.obj empty.stl" + light, 2);
-  this->ExpectFailure(1, "fitted lobes are not in this version; use fast or sampled",
-    "sphere --environment in.exr --output out.exr --shading fitted");
   this->ExpectFailure(1, "65536 are the most", "bake in.exr --output out --engine sampled --tolerance 0.001");
   this->ExpectFailure(1, "take 0.002 or more", "bake in.exr --output out --tolerance 0.001");
 }

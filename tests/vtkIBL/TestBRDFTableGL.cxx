@@ -4,6 +4,7 @@
 
 #include "vtkIBLBRDFTable.h"
 #include "vtkIBLBRDFTableTexels.h"
+#include "vtkIBLShaderFunctions.h"
 
 namespace reference = vtkIBLReference;
 
@@ -44,11 +45,11 @@ TEST_F(TestBRDFTableGL, IsTheConstant)
   vtkNew<vtkIBLBRDFTable> table;
   ASSERT_TRUE(table->Update(this->Window));
   vtkSmartPointer<vtkImageData> image = table->Read();
-  for (int texel = 0; texel < n * n; ++texel)
+  ASSERT_EQ(image->GetNumberOfPoints() * image->GetNumberOfScalarComponents(), 4 * 2 * n * n);
+  const auto* value = static_cast<const float*>(image->GetScalarPointer());
+  for (int i = 0; i < 4 * 2 * n * n; ++i)
   {
-    const RGB ab = GetTexel(image, texel % n, texel / n);
-    ASSERT_NEAR(ab[0] * 65535, vtkIBLBRDFTableTexels[2 * texel], 0.01) << texel;
-    ASSERT_NEAR(ab[1] * 65535, vtkIBLBRDFTableTexels[2 * texel + 1], 0.01) << texel;
+    ASSERT_NEAR(value[i] * 65535, vtkIBLBRDFTableTexels[i], 0.01) << i;
   }
 }
 
@@ -64,7 +65,7 @@ TEST_F(TestBRDFTableGL, SamplingAgreesWithTheConstant)
   this->Judge(image,
     [](int i, int j)
     {
-      const std::uint16_t* ab = vtkIBLBRDFTableTexels + 2 * (j * n + i);
+      const std::uint16_t* ab = vtkIBLBRDFTableTexels + 4 * (j * n + i);
       return reference::SplitSum{ ab[0] / 65535.0, ab[1] / 65535.0 };
     });
 }
@@ -82,6 +83,42 @@ TEST_F(TestBRDFTableGL, SchlickSmithAgreesWithQuadrature)
       return reference::SplitSumAB(
         double(i) / (n - 1) * i / (n - 1), double(j) / (n - 1), reference::Geometry::SchlickSmith, 0.5);
     });
+}
+
+// With Schlick-Smith lobes are plain: along R, of the surface's roughness, all of it. Mutant: the fitted ones left in.
+TEST_F(TestBRDFTableGL, SchlickSmithHasPlainLobes)
+{
+  vtkNew<vtkIBLBRDFTable> table;
+  table->SetGeometryTerm(vtkIBLBRDFTable::SchlickSmith);
+  ASSERT_TRUE(table->Update(this->Window));
+  vtkSmartPointer<vtkImageData> image = table->Read();
+  vtkIBLCore::ShaderFunctions<double> shader;
+  for (int j = 0; j < n; j += 7)
+  {
+    const auto* reflection = static_cast<const float*>(image->GetScalarPointer(20, j, 0));
+    const auto* lobes = static_cast<const float*>(image->GetScalarPointer(20, n + j, 0));
+    for (int set : { 0, 1 })
+    {
+      EXPECT_EQ(reflection[2 + set], 0);
+      EXPECT_EQ(lobes[2 * set], 1);
+      EXPECT_NEAR(lobes[2 * set + 1], shader.iblLadderPosition(j / (n - 1.0)), 1e-5);
+    }
+  }
+}
+
+// What layers a scene needs is told by the narrowest lobe: the constant's, no narrower than half of the surface's, and
+// the surface's own at the ladder's first layer and below; 5e-3, since 0.1 lies between two rows.
+TEST_F(TestBRDFTableGL, KnowsTheNarrowestLobe)
+{
+  for (double r : { 0.0, 0.05, 0.1 })
+  {
+    EXPECT_NEAR(vtkIBLBRDFTable::GetNarrowestLobe(r), r, 5e-3) << r;
+  }
+  for (double r : { 0.15, 0.3, 0.77, 1.0 })
+  {
+    EXPECT_GE(vtkIBLBRDFTable::GetNarrowestLobe(r), std::max(0.1, 0.45 * r) - 1e-3) << r;
+    EXPECT_LE(vtkIBLBRDFTable::GetNarrowestLobe(r), r) << r;
+  }
 }
 
 // A white surface never reflects more than it gets, at every edge. Two roundings: 2e-5.

@@ -54,25 +54,39 @@ TEST_F(TestShadingGL, CompensatedFurnaceIsWhite)
   }
 }
 
-// A dielectric's two parts under constant light: f0 A + B, and albedo times what is left. 2e-3. Mutant: (1 - f0) for
-// the diffuse share.
+// A dielectric's two parts under constant light: f0 A + B, and with energy compensation albedo times what is left of 1;
+// without, Lambert under Schlick's term at each light's own half vector, whose integral is the reference's. 2e-3.
+// Mutants: (1 - f0) for the diffuse share, (1 - F) at the normal's angle (0.05 off at NoV 0.3), the two swapped.
 TEST_F(TestShadingGL, DielectricIsSpecularPlusTheRest)
 {
   this->UseConstantEnvironment(1.0);
-  this->Pass->GetLighting()->EnergyCompensationOff();
+  const reference::Environment constant = reference::ConstantEnvironment({ 1, 1, 1 }, 64, 32);
   for (double roughness : { 0.3, 0.8 })
   {
     for (double NoV : { 1.0, 0.3 })
     {
-      this->SetMaterial(0.0, roughness, { 0.5, 0.2, 0.0 });
+      const RGB albedo = { 0.5, 0.2, 0.0 };
+      this->SetMaterial(0.0, roughness, albedo);
       this->SetNoV(NoV);
       const double f0 = 0.04; // VTK's default index of refraction, 1.5; its f90 is then clamp(50 * 0.33 * 3 f0) = 1
       const reference::SplitSum ab = reference::SplitSumAB(NoV, roughness);
-      const double specular = f0 * ab.A + ab.B;
-      const RGB seen = this->Capture();
-      EXPECT_NEAR(seen[0], specular + 0.5 * (1 - specular), 2e-3);
-      EXPECT_NEAR(seen[1], specular + 0.2 * (1 - specular), 2e-3);
-      EXPECT_NEAR(seen[2], specular, 2e-3);
+      const double missing = 1 - ab.A - ab.B;
+      const double mean = f0 + (1 - f0) / 21;
+      const double once = f0 * ab.A + ab.B;
+      const double again = missing * once * mean / (1 - missing * mean);
+      const RGB single = reference::FullBRDFRadiance(
+        constant, { 0, 0, 1 }, { std::sqrt(1 - NoV * NoV), 0, NoV }, roughness, { f0, f0, f0 }, albedo);
+      for (bool compensation : { true, false })
+      {
+        this->Pass->GetLighting()->SetEnergyCompensation(compensation);
+        const RGB seen = this->Capture();
+        for (int k = 0; k < 3; ++k)
+        {
+          const double whole = once + again + albedo[k] * (1 - once - again);
+          EXPECT_NEAR(seen[k], compensation ? whole : single[k], 2e-3)
+            << roughness << " " << NoV << " " << compensation;
+        }
+      }
     }
   }
 }
@@ -228,10 +242,10 @@ TEST_F(TestShadingGL, SampledFurnaceIsWhite)
   }
 }
 
-// Between layers: seen face on, a white metal shows the prefiltered radiance at its roughness, times A + B. A light
-// that fades over half the sky tells roughnesses apart (10 % a layer); what is left is interpolation, 512 samples and
-// 16^2 texels: 2 %. Mutants: the share of the two layers swapped, either mip level off by one, perceptualRoughness
-// squared once more.
+// Between layers: seen face on, a white metal with plain lobes shows the prefiltered radiance at its roughness, times A
+// + B, and the rest of 1 of irradiance. A light that fades over half the sky tells roughnesses apart (10 % a layer);
+// what is left is interpolation, 512 samples and 16^2 texels: 2 %. Mutants: the share of the two layers swapped, either
+// mip level off by one, perceptualRoughness squared once more.
 TEST_F(TestShadingGL, InterpolatesBetweenLayers)
 {
   vtkSmartPointer<vtkImageData> panorama = MakePanorama(128,
@@ -241,14 +255,16 @@ TEST_F(TestShadingGL, InterpolatesBetweenLayers)
       return RGB{ l, l, l };
     });
   this->Environment->SetInputData(panorama);
-  this->Pass->GetLighting()->EnergyCompensationOff();
+  this->Pass->GetLighting()->SetReflectionModel(vtkIBLLighting::Classic);
   const reference::Environment environment = ToReference(panorama);
+  const double irradiance = reference::Irradiance(environment, { 0, 0, 1 })[0] / reference::Pi;
   this->SetNoV(1.0);
   for (double roughness : { 0.115, 0.155, 0.21, 0.27, 0.36, 0.49, 0.65, 0.87 })
   {
     this->SetMaterial(1.0, roughness, { 1, 1, 1 });
-    const double truth = reference::PrefilteredRadiance(environment, { 0, 0, 1 }, roughness)[0] *
-      reference::DirectionalAlbedo(1.0, roughness);
+    const double albedo = reference::DirectionalAlbedo(1.0, roughness, reference::Geometry::SchlickSmith);
+    const double truth =
+      albedo * reference::PrefilteredRadiance(environment, { 0, 0, 1 }, roughness)[0] + (1 - albedo) * irradiance;
     EXPECT_NEAR(this->Capture()[0] / truth, 1, 0.02) << roughness;
   }
 }

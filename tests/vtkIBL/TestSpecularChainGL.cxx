@@ -308,10 +308,10 @@ TEST_F(TestSpecularChainGL, SpectralLayersAreTheIntegral)
 }
 
 // What the user asked for: read as a shader does, bilinearly and between two layers, at any roughness, all eight maps
-// stay within the default tolerance, 2 %; and there as at 5 % the error that was predicted is neither half nor double of what is measured. Measured
-// densely, at the centres of a 90^2 cube that no layer shares, against the filter itself (which the test above and
-// core/TestSpectrum hold against the integral). Mutants: no fit of the reading, texels' or layers' (misses the
-// tolerance); the ladder's inverse; levels off by one; any of the prediction's terms left out.
+// stay within the default tolerance, 2 %; and there as at 5 % the error that was predicted is neither half nor double
+// of what is measured. Measured densely, at the centres of a 90^2 cube that no layer shares, against the filter itself
+// (which the test above and core/TestSpectrum hold against the integral). Mutants: no fit of the reading, texels' or
+// layers' (misses the tolerance); the ladder's inverse; levels off by one; any of the prediction's terms left out.
 TEST_F(TestSpecularChainGL, ReadsAsWellAsItPromises)
 {
   for (double tolerance : { 0.02, 0.05 })

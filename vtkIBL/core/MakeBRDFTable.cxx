@@ -2,100 +2,82 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs while the library is built: MakeBRDFTable FILE.cxx writes the constant that vtkIBLBRDFTableTexels.h declares.
 #include "vtkIBLBRDFTableTexels.h"
-#include "vtkIBLShaderFunctions.h"
+#include "vtkIBLLobeFit.h"
+#include "vtkIBLReflectionQuadrature.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
+#include <atomic>
 #include <fstream>
+#include <functional>
 #include <iostream>
+#include <thread>
 
 namespace
 {
 using Functions = vtkIBLCore::ShaderFunctions<double>;
-using Channels = std::array<double, vtkIBLBRDFTableChannels>;
+using Texel = std::array<double, vtkIBLBRDFTableChannels>;
+constexpr int Size = vtkIBLBRDFTableSize;
 Functions shader;
 
-// Integral of f over [begin, end], in panels of Gauss-Legendre's eight points.
-template <typename Function>
-void AddGauss(double begin, double end, int panels, Function f)
+double SchlickWeight(double VoH)
 {
-  static const double nodes[4] = { 0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363 };
-  static const double weights[4] = { 0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763 };
-  const double half = 0.5 * (end - begin) / panels;
-  for (int panel = 0; panel < panels; ++panel)
-  {
-    for (int i = 0; i < 4; ++i)
-    {
-      for (double node : { -nodes[i], nodes[i] })
-      {
-        f(begin + half * (2 * panel + 1 + node), half * weights[i]);
-      }
-    }
-  }
+  return shader.iblF_Schlick(Functions::vec3(0.0), Functions::vec3(1.0), VoH).x;
 }
 
-// Reflection integral of f NoL over half vectors at angle theta to the normal and phi to the view direction:
-//   4 V F VoH NoL / NoH  times  D NoH dw = tau/(1 + tau)^2 dx dphi/(2 pi),  tan(theta) = alpha sqrt(tau),  tau = e^x.
-// L is above the horizon for every phi while theta < (pi/2 - thetaV)/2, for |phi| < phiEnd up to (pi/2 + thetaV)/2, and
-// then for none. phiEnd starts and ends like a square root, so x is spaced by a cosine between these two; and V has a
-// boundary layer as thin as NoV where L sets, so phi is spaced by a sine. At NoV = 0 all of it has a limit: V NoL =
-// 1/(2 alpha), and A + B = 1.
-Channels IntegrateRough(double NoV, double alpha)
+Texel Integrate(double NoV, double perceptualRoughness)
 {
-  const double sinV = std::sqrt((1.0 - NoV) * (1.0 + NoV));
-  Channels sum = {};
-  auto addRing = [&](double x, double dx)
+  if (perceptualRoughness == 0.0)
   {
-    const double tau = std::exp(x);
-    const double tangent = alpha * std::sqrt(tau);
-    const double NoH = 1.0 / std::sqrt(1.0 + tangent * tangent);
-    const double product = sinV * tangent * NoH;
-    // NoL = 2 VoH NoH - NoV = 0 at the last phi.
-    const double needed = NoV * (0.5 / NoH - NoH);
-    const double phiEnd = product > 0.0 ? std::acos(std::clamp(needed / product, -1.0, 1.0)) : shader.iblPi;
-    AddGauss(0.0, 0.5 * shader.iblPi, 2,
-      [&](double turn, double dturn)
-      {
-        const double phi = phiEnd * std::sin(turn);
-        const double VoH = NoV * NoH + product * std::cos(phi);
-        const double NoL = 2.0 * VoH * NoH - NoV;
-        if (NoL > 0.0)
-        {
-          const double density =
-            tau / ((1.0 + tau) * (1.0 + tau)) * dx * phiEnd * std::cos(turn) * dturn / shader.iblPi;
-          const double weight = density * 4.0 * shader.iblV_SmithGGXCorrelated(NoV, NoL, alpha) * VoH * NoL / NoH;
-          const double fresnel = shader.iblF_Schlick(Functions::vec3(0.0), Functions::vec3(1.0), VoH).x;
-          sum[0] += weight * (1.0 - fresnel);
-          sum[1] += weight * fresnel;
-        }
-      });
-  };
-  // Beyond these, e^x and e^(-x/2) leave nothing of the density.
-  constexpr double first = -30.0;
-  constexpr double last = 60.0;
-  // tan((pi/2 -+ thetaV)/2) = NoV / (1 + sinV) and its inverse.
-  const double tangent = std::max(NoV, 1e-300) / (1.0 + sinV);
-  const double sets = std::clamp(2.0 * std::log(tangent / alpha), first, last);
-  const double gone = std::clamp(-2.0 * std::log(tangent * alpha), first, last);
-  AddGauss(first, sets, 24, addRing);
-  AddGauss(0.0, shader.iblPi, 32,
-    [&](double angle, double dangle)
+    return { 1.0 - SchlickWeight(NoV), SchlickWeight(NoV) };
+  }
+  Texel sum = {};
+  vtkIBLCore::ForEachReflection(NoV, shader.iblAlpha(perceptualRoughness), 4,
+    [&](const Functions::vec3&, double VoH, double weight)
     {
-      const double half = 0.5 * (gone - sets);
-      addRing(sets + half * (1.0 - std::cos(angle)), half * std::sin(angle) * dangle);
+      sum[0] += weight * (1.0 - SchlickWeight(VoH));
+      sum[1] += weight * SchlickWeight(VoH);
     });
   return sum;
 }
 
-Channels Integrate(double NoV, double perceptualRoughness)
+// Of texels 0, 2, 4 ... and the last of each row and column; the others lie between them.
+void FitLobes(const vtkIBLLobeFitter& fitter, int i, int j, Texel& reflection, Texel& lobes)
 {
-  if (perceptualRoughness == 0.0)
+  const Functions::vec2 at = shader.iblBRDFTableArguments(i, j, Size);
+  for (int set = 0; set < 2; ++set)
   {
-    const double fresnel = shader.iblF_Schlick(Functions::vec3(0.0), Functions::vec3(1.0), NoV).x;
-    return { 1.0 - fresnel, fresnel };
+    const vtkIBLFittedLobe lobe = fitter.Fit(at.x, at.y, set == 0 ? 1.0 : IBL_DIELECTRIC_F0);
+    lobes[2 * set] = lobe.Bend;
+    lobes[2 * set + 1] = shader.iblLadderPosition(lobe.PerceptualRoughness);
+    reflection[2 + set] = lobe.DiffuseShare;
   }
-  return IntegrateRough(NoV, shader.iblAlpha(perceptualRoughness));
+}
+
+bool IsFitted(int i)
+{
+  return i % 2 == 0 || i == Size - 1;
+}
+
+void ForEachRow(const std::function<void(int)>& body)
+{
+  std::atomic<int> next{ 0 };
+  auto work = [&]
+  {
+    for (int j; (j = next++) < Size;)
+    {
+      body(j);
+    }
+  };
+  std::vector<std::thread> threads;
+  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i)
+  {
+    threads.emplace_back(work);
+  }
+  work();
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
 }
 }
 
@@ -106,20 +88,61 @@ int main(int argc, char* argv[])
     std::cerr << "usage: MakeBRDFTable FILE.cxx\n";
     return 2;
   }
+  std::vector<Texel> reflection(Size * Size);
+  std::vector<Texel> lobes(Size * Size);
+  const vtkIBLLobeFitter fitter;
+  ForEachRow(
+    [&](int j)
+    {
+      for (int i = 0; i < Size; ++i)
+      {
+        const Functions::vec2 at = shader.iblBRDFTableArguments(i, j, Size);
+        reflection[j * Size + i] = Integrate(at.x, at.y);
+        if (IsFitted(i) && IsFitted(j))
+        {
+          FitLobes(fitter, i, j, reflection[j * Size + i], lobes[j * Size + i]);
+        }
+      }
+    });
+  auto setBetween = [&](int texel, int before, int after)
+  {
+    for (int c = 0; c < vtkIBLBRDFTableChannels; ++c)
+    {
+      lobes[texel][c] = 0.5 * (lobes[before][c] + lobes[after][c]);
+      if (c >= 2)
+      {
+        reflection[texel][c] = 0.5 * (reflection[before][c] + reflection[after][c]);
+      }
+    }
+  };
+  for (int texel = 0; texel < Size * Size; ++texel)
+  {
+    if (!IsFitted(texel % Size) && IsFitted(texel / Size))
+    {
+      setBetween(texel, texel - 1, texel + 1);
+    }
+  }
+  for (int texel = 0; texel < Size * Size; ++texel)
+  {
+    if (!IsFitted(texel / Size))
+    {
+      setBetween(texel, texel - Size, texel + Size);
+    }
+  }
+
   std::ofstream file(argv[1]);
   file << "// Made by MakeBRDFTable.cxx; do not edit.\n#include \"vtkIBLBRDFTableTexels.h\"\n\n"
        << "const std::uint16_t vtkIBLBRDFTableTexels[] = {\n";
-  for (int j = 0; j < vtkIBLBRDFTableSize; ++j)
+  for (const std::vector<Texel>* block : { &reflection, &lobes })
   {
-    for (int i = 0; i < vtkIBLBRDFTableSize; ++i)
+    for (const Texel& texel : *block)
     {
-      const Functions::vec2 at = shader.iblBRDFTableArguments(i, j, vtkIBLBRDFTableSize);
-      for (double x : Integrate(at.x, at.y))
+      for (double x : texel)
       {
         file << std::lround(65535.0 * x) << ',';
       }
+      file << '\n';
     }
-    file << '\n';
   }
   file << "};\n";
   file.close();

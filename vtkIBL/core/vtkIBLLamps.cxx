@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIBLLamps.h"
 
+#include "vtkIBLLampClusters.h"
 #include "vtkIBLSimd.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <utility>
 
 namespace
 {
@@ -20,37 +20,17 @@ using Kernel = vtkIBLLamps::Kernel;
 using Light = vtkIBLLamps::Light;
 using Lamp = vtkIBLLamps::Lamp;
 
-std::vector<Lamp> FindLamps(std::vector<vtkIBLBrightTexel> texels)
+std::vector<Lamp> FindLamps(const std::vector<vtkIBLBrightTexel>& texels)
 {
-  const auto power = [](const vtkIBLBrightTexel& texel)
-  { return (texel.Radiance.r + texel.Radiance.g + texel.Radiance.b) * texel.SolidAngle; };
-  std::stable_sort(texels.begin(), texels.end(),
-    [&](const vtkIBLBrightTexel& a, const vtkIBLBrightTexel& b) { return power(a) > power(b); });
   std::vector<Lamp> lamps;
-  while (!texels.empty())
+  for (const vtkIBLLampCluster& cluster : vtkIBLFindLampClusters(texels, LargestRadius))
   {
-    const glm::dvec3 brightest = texels.front().Direction;
-    const auto rest = std::stable_partition(texels.begin(), texels.end(),
-      [&](const vtkIBLBrightTexel& texel) { return glm::distance(texel.Direction, brightest) <= LargestRadius; });
-    glm::dvec3 middle(0.0);
-    glm::dvec3 sum(0.0);
-    Lamp lamp;
-    for (auto texel = texels.begin(); texel != rest; ++texel)
+    Lamp lamp = { { cluster.Direction, cluster.Power }, float(cluster.Radius * cluster.Radius) * Far * Far, {} };
+    for (int i : cluster.Texels)
     {
-      middle += power(*texel) * texel->Direction;
-      sum += texel->Radiance * texel->SolidAngle;
-      lamp.Texels.push_back({ texel->Direction, texel->Radiance * texel->SolidAngle });
+      lamp.Texels.push_back({ texels[i].Direction, texels[i].Radiance * texels[i].SolidAngle });
     }
-    middle = glm::normalize(middle);
-    double radius = 0.0;
-    for (auto texel = texels.begin(); texel != rest; ++texel)
-    {
-      radius = std::max(radius, glm::distance(texel->Direction, middle));
-    }
-    lamp.Whole = { middle, sum };
-    lamp.FarSquared = float(radius * radius) * Far * Far;
     lamps.push_back(lamp);
-    texels.erase(texels.begin(), rest);
   }
   return lamps;
 }
@@ -127,8 +107,8 @@ vtkIBLLamps::Kernel vtkIBLLamps::MakeKernel(const vtkIBLLobe& lobe)
   return { float(k), float(oneMinusK), float(lobe.Weight / (2.0 * Pi * norm)) };
 }
 
-vtkIBLLamps::vtkIBLLamps(std::vector<vtkIBLBrightTexel> texels, const std::vector<vtkIBLLobe>& lobes)
-  : Lamps(FindLamps(std::move(texels)))
+vtkIBLLamps::vtkIBLLamps(const std::vector<vtkIBLBrightTexel>& texels, const std::vector<vtkIBLLobe>& lobes)
+  : Lamps(FindLamps(texels))
 {
   std::transform(lobes.begin(), lobes.end(), std::back_inserter(this->Kernels), MakeKernel);
 }

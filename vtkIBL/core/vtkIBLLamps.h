@@ -12,7 +12,7 @@
 class vtkIBLLamps
 {
 public:
-  vtkIBLLamps(std::vector<vtkIBLBrightTexel> texels, const std::vector<vtkIBLLobe>& lobes);
+  vtkIBLLamps(const std::vector<vtkIBLBrightTexel>& texels, const std::vector<vtkIBLLobe>& lobes);
 
   bool IsEmpty() const { return this->Lamps.empty(); }
 

@@ -3,13 +3,16 @@
 #include "vtkIBLSpectrum.h"
 
 #include "vtkIBLColorTransform.h"
+#include "vtkIBLLampClusters.h"
 #include "vtkIBLLegendre.h"
+#include "vtkIBLShared.glsl"
 #include "vtkIBLSimd.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
+#include <iterator>
 #include <memory>
 
 namespace
@@ -19,16 +22,22 @@ constexpr int Group = vtkIBLLegendre::Group;
 using Color = vtkIBLColor;
 using Complex = vtkIBLComplexColor;
 
-double Luminance(const float* rgb)
+template <typename RGB>
+double Luminance(const RGB& rgb)
 {
   return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
 }
 
-// Where a texel at the equator carries more than this share of all light, what is above goes to the list: such texels
-// make nearly all of the ringing.
+// What is taken out, above a threshold of its own. Where a texel at the equator carries more than this share of all
+// light: such texels make nearly all of the ringing.
 constexpr double BrightShare = 1e-3;
 constexpr double BrightFactor = 100.0; // means, at least
 constexpr std::size_t MostBrightTexels = 64;
+// And what shading takes as lights, the strongest clusters of dimmer ones.
+constexpr double LampFactor = 20.0; // means
+constexpr double LeastLamp = 5e-3;  // of all light
+constexpr std::size_t MostLampTexels = 2048;
+constexpr std::size_t MostCandidates = 4096; // looking for them costs the square
 
 // Twice as wide as the bands need: what is finer moves no layer by 1e-4.
 constexpr int EnoughWidth = 2048;
@@ -78,42 +87,10 @@ struct Bright
 {
   double Luminance;
   int Row, Column;
+  double Kept; // share of its light that stays where it is
 };
 
-// By row, then column.
-std::vector<Bright> FindBrightTexels(
-  const vtkIBLRadianceImage& image, double threshold, const vtkIBLParallelFor& parallelFor)
-{
-  std::vector<std::vector<Bright>> rows(image.Height);
-  parallelFor(image.Height,
-    [&](int row)
-    {
-      const float* rgb = image.RGB + std::size_t(3) * row * image.Width;
-      for (int column = 0; column < image.Width; ++column, rgb += 3)
-      {
-        if (const double luminance = Luminance(rgb); luminance > threshold)
-        {
-          rows[row].push_back({ luminance, row, column });
-        }
-      }
-    });
-  std::vector<Bright> bright;
-  for (const std::vector<Bright>& row : rows)
-  {
-    bright.insert(bright.end(), row.begin(), row.end());
-  }
-  if (bright.size() > MostBrightTexels)
-  {
-    std::stable_sort(
-      bright.begin(), bright.end(), [](const Bright& a, const Bright& b) { return a.Luminance > b.Luminance; });
-    bright.resize(MostBrightTexels);
-    std::sort(bright.begin(), bright.end(),
-      [](const Bright& a, const Bright& b) { return a.Row != b.Row ? a.Row < b.Row : a.Column < b.Column; });
-  }
-  return bright;
-}
-
-vtkIBLBrightTexel TakeOut(const vtkIBLRadianceImage& image, const Bright& bright, double threshold)
+vtkIBLBrightTexel TakeOut(const vtkIBLRadianceImage& image, const Bright& bright)
 {
   // Colatitudes a to b from the lower pole: the mean direction (not the middle: by the pole a texel is a triangle) and
   // solid angle.
@@ -125,12 +102,85 @@ vtkIBLBrightTexel TakeOut(const vtkIBLRadianceImage& image, const Bright& bright
   const auto direction = glm::normalize(glm::dvec3(outwards * std::cos(phi), -down, outwards * std::sin(phi)));
   const double solidAngle = 2.0 * Pi / image.Width * 2.0 * std::sin(0.5 * (a + b)) * std::sin(0.5 * (b - a));
   const float* rgb = image.RGB + 3 * (std::size_t(bright.Row) * image.Width + bright.Column);
-  const double above = 1.0 - threshold / bright.Luminance;
-  return { direction, solidAngle, above * glm::dvec3(rgb[0], rgb[1], rgb[2]) };
+  return { direction, solidAngle, (1.0 - bright.Kept) * glm::dvec3(rgb[0], rgb[1], rgb[2]) };
+}
+
+// By row, then column.
+std::vector<Bright> FindAbove(const vtkIBLRadianceImage& image, double threshold, const vtkIBLParallelFor& parallelFor)
+{
+  std::vector<std::vector<Bright>> rows(image.Height);
+  parallelFor(image.Height,
+    [&](int row)
+    {
+      const float* rgb = image.RGB + std::size_t(3) * row * image.Width;
+      for (int column = 0; column < image.Width; ++column, rgb += 3)
+      {
+        if (const double luminance = Luminance(rgb); luminance > threshold)
+        {
+          rows[row].push_back({ luminance, row, column, threshold / luminance });
+        }
+      }
+    });
+  std::vector<Bright> bright;
+  for (const std::vector<Bright>& row : rows)
+  {
+    bright.insert(bright.end(), row.begin(), row.end());
+  }
+  return bright;
+}
+
+// Texels of the strongest lamps, and the brightest of the rest; by row, then column.
+std::vector<Bright> FindBrightTexels(
+  const vtkIBLRadianceImage& image, double mean, const vtkIBLParallelFor& parallelFor)
+{
+  std::vector<Bright> all = FindAbove(image, LampFactor * mean, parallelFor);
+  // A texel at the equator has the solid angle 2 pi^2 / (width height).
+  const double threshold = std::max(BrightShare * 2.0 / Pi * image.Width * image.Height, BrightFactor) * mean;
+  if (all.size() > MostCandidates)
+  {
+    std::nth_element(all.begin(), all.begin() + MostCandidates, all.end(),
+      [](const Bright& a, const Bright& b) { return a.Luminance > b.Luminance; });
+    all.resize(MostCandidates);
+  }
+  std::vector<vtkIBLBrightTexel> texels;
+  std::transform(
+    all.begin(), all.end(), std::back_inserter(texels), [&](const Bright& bright) { return TakeOut(image, bright); });
+  std::vector<char> chosen(all.size(), 0);
+  std::size_t count = 0;
+  int lamps = 0;
+  for (const vtkIBLLampCluster& cluster : vtkIBLFindLampClusters(texels, vtkIBLSpectrum::LampRadius))
+  {
+    const bool strong = Luminance(cluster.Power) > LeastLamp * 4.0 * Pi * mean;
+    if (lamps < IBL_MAXIMUM_LAMPS && strong && count + cluster.Texels.size() <= MostLampTexels)
+    {
+      ++lamps;
+      count += cluster.Texels.size();
+      std::for_each(cluster.Texels.begin(), cluster.Texels.end(), [&](int i) { chosen[i] = 1; });
+    }
+  }
+  std::vector<Bright> bright;
+  std::vector<Bright> rest;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    if (chosen[i])
+    {
+      bright.push_back(all[i]);
+    }
+    else if (all[i].Luminance > threshold)
+    {
+      rest.push_back({ all[i].Luminance, all[i].Row, all[i].Column, threshold / all[i].Luminance });
+    }
+  }
+  std::stable_sort(
+    rest.begin(), rest.end(), [](const Bright& a, const Bright& b) { return a.Luminance > b.Luminance; });
+  bright.insert(bright.end(), rest.begin(), rest.begin() + std::min(rest.size(), MostBrightTexels));
+  std::sort(bright.begin(), bright.end(),
+    [](const Bright& a, const Bright& b) { return a.Row != b.Row ? a.Row < b.Row : a.Column < b.Column; });
+  return bright;
 }
 
 // A row without what its bright texels took.
-void ReadRow(const vtkIBLRadianceImage& image, int row, const std::vector<Bright>& bright, double threshold, Color* out)
+void ReadRow(const vtkIBLRadianceImage& image, int row, const std::vector<Bright>& bright, Color* out)
 {
   const float* rgb = image.RGB + std::size_t(3) * row * image.Width;
   for (int column = 0; column < image.Width; ++column, rgb += 3)
@@ -140,7 +190,7 @@ void ReadRow(const vtkIBLRadianceImage& image, int row, const std::vector<Bright
   auto it = std::lower_bound(bright.begin(), bright.end(), row, [](const Bright& b, int r) { return b.Row < r; });
   for (; it != bright.end() && it->Row == row; ++it)
   {
-    out[it->Column] *= Color(float(threshold / it->Luminance));
+    out[it->Column] *= Color(float(it->Kept));
   }
 }
 
@@ -181,18 +231,14 @@ vtkIBLSpectrum::vtkIBLSpectrum(const vtkIBLRadianceImage& original, int order, c
   const vtkIBLRadianceImage image = Reduce(original, reduced, parallelFor);
   const int width = image.Width;
   const int height = image.Height;
-  // A texel at the equator has the solid angle 2 pi^2 / (width height).
-  const double threshold = std::max(BrightShare * 2.0 / Pi * width * height, BrightFactor) * vtkIBLMeanLuminance(image);
-  const std::vector<Bright> bright = FindBrightTexels(image, threshold, parallelFor);
-  for (const Bright& texel : bright)
-  {
-    this->BrightTexels.push_back(TakeOut(image, texel, threshold));
-  }
+  const std::vector<Bright> bright = FindBrightTexels(image, vtkIBLMeanLuminance(image), parallelFor);
+  std::transform(bright.begin(), bright.end(), std::back_inserter(this->BrightTexels),
+    [&](const Bright& texel) { return TakeOut(image, texel); });
 
   // Two Gauss points a row, in more slices when rows are few for so many bands.
   const int bands = this->Order + 1;
-  // (They err by (l h)^4/4320: what is cheap is exact, and the highest of many bands, which no layer has much of, is off
-  // by a percent.)
+  // (They err by (l h)^4/4320: what is cheap is exact, and the highest of many bands, which no layer has much of, is
+  // off by a percent.)
   const int needed = std::min(4 * bands, std::max(5 * bands / 4, 160));
   const int slices = std::max(1, (needed + height - 1) / height);
   const int rows = height * slices;
@@ -225,8 +271,8 @@ vtkIBLSpectrum::vtkIBLSpectrum(const vtkIBLRadianceImage& original, int order, c
       {
         if (i == begin || i % slices == 0)
         {
-          ReadRow(image, height - 1 - i / slices, bright, threshold, north.data());
-          ReadRow(image, i / slices, bright, threshold, south.data());
+          ReadRow(image, height - 1 - i / slices, bright, north.data());
+          ReadRow(image, i / slices, bright, south.data());
           for (int column = 0; column < width; ++column)
           {
             in[column] = { north[column], south[column] };

@@ -44,6 +44,9 @@ public:
 
   static constexpr int MaximumOrder = 320;
 
+  /// Bright texels that belong to one lamp lie within so much of it [rad].
+  static constexpr double LampRadius = 0.05;
+
   /// Radiance under the sum of `lobes` at the texel centres of a cube map's faces, in GL's order, row 0 at t = -1, with
   /// a border of `border` (0 or 1) texels around each face, where its plane goes on: 6 x (faceSize + 2 border)^2 x 3
   /// floats. Never negative unless a weight is. faceSize is even.
