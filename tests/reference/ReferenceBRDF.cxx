@@ -75,4 +75,70 @@ double DirectionalAlbedo(double NoV, double perceptualRoughness, Geometry geomet
   const SplitSum sum = SplitSumAB(NoV, perceptualRoughness, geometry);
   return sum.A + sum.B;
 }
+
+Facets::Facets(Vec3 normal, Vec3 tangent, double alphaT, double alphaB)
+  : N(normal)
+  , T(Normalize(tangent - Dot(normal, tangent) * normal))
+  , B(Cross(N, T))
+  , AlphaT(alphaT)
+  , AlphaB(alphaB)
+{
+}
+
+// Heitz 2014, as above, on anisotropy: the slopes along T and B are those of a surface of alpha = 1 times AlphaT and
+// AlphaB. Facet normals of that one are (T.h / AlphaT, B.h / AlphaB, N.h), and what sees V here sees
+// (AlphaT T.V, AlphaB B.V, N.V) there.
+double Facets::Q(Vec3 H) const
+{
+  const double t = Dot(this->T, H) / this->AlphaT, b = Dot(this->B, H) / this->AlphaB, n = Dot(this->N, H);
+  return t * t + b * b + n * n;
+}
+
+double Facets::D(Vec3 H) const
+{
+  const double q = this->Q(H);
+  return 1 / (Pi * this->AlphaT * this->AlphaB * q * q);
+}
+
+double Facets::Visibility(Vec3 L, Vec3 V) const
+{
+  const auto root = [this](Vec3 d) {
+    const double t = this->AlphaT * Dot(this->T, d), b = this->AlphaB * Dot(this->B, d), n = Dot(this->N, d);
+    return std::sqrt(t * t + b * b + n * n); // (1 + 2 Lambda) N.d
+  };
+  return 0.5 / (Dot(this->N, L) * root(V) + Dot(this->N, V) * root(L));
+}
+
+SplitSum AnisotropicSplitSumAB(Vec3 V, double alphaT, double alphaB, double refinement)
+{
+  // As SplitSumAB, with the slopes u = sqrt(tau) e, e = (alphaT cos(phi), alphaB sin(phi)), of the density
+  // D NoH dw_h = dtau/(1+tau)^2 dphi/(2 pi). L = 2 VoH H - V lies above the horizon where |u - c| < 1/NoV with
+  // c = Vt/NoV, the slope that V has: a disc around which tau ends at the root of |e|^2 tau - 2 e.c sqrt(tau) = 1.
+  // Both rules have no kink then, and that of phi is periodic.
+  const Facets facets({ 0, 0, 1 }, { 1, 0, 0 }, alphaT, alphaB);
+  const int steps = static_cast<int>(1200 * refinement), turns = static_cast<int>(600 * refinement);
+  SplitSum sum{ 0, 0 };
+  for (int j = 0; j < turns; ++j)
+  {
+    const double phi = 2 * Pi * (j + 0.5) / turns, et = alphaT * std::cos(phi), eb = alphaB * std::sin(phi);
+    const double square = et * et + eb * eb, along = (et * V.x + eb * V.y) / V.z;
+    // the root without a difference of nearly equal numbers
+    const double reach = std::sqrt(along * along + square);
+    const double last = along > 0 ? (along + reach) / square : 1 / (reach - along);
+    const double begin = -18, end = std::min(18.0, 2 * std::log(last)); // as SplitSumAB
+    for (int i = 0; i < steps && begin < end; ++i)
+    {
+      const double tau = std::exp(begin + (end - begin) * (i + 0.5) / steps), t = std::sqrt(tau);
+      const double density = tau / ((1 + tau) * (1 + tau)) * (end - begin) / steps / turns;
+      const Vec3 H = Normalize({ t * et, t * eb, 1 });
+      const double VoH = Dot(V, H);
+      const Vec3 L = 2 * VoH * H - V;
+      const double weight = density * 4 * facets.Visibility(L, V) * VoH * std::max(0.0, L.z) / H.z;
+      const double fresnel = SchlickWeight(VoH);
+      sum.A += weight * (1 - fresnel);
+      sum.B += weight * fresnel;
+    }
+  }
+  return sum;
+}
 }

@@ -232,37 +232,70 @@ struct PrefilterKernel
   }
 };
 
-// The whole surface. x and y: GGX times NoL without and with Schlick's weight w, z: (1 - w) NoL / pi, so that
-// f NoL = f0 x + y + diffuseAlbedo (1 - f0) z with F = f0 + (1 - f0) w = f0 (1 - w) + w.
+// The weights of ReflectedParts' members, in their order.
+struct SurfaceWeights
+{
+  double White = 0, WhiteSchlick = 0, Lambert = 0, LambertSchlick = 0;
+};
+SurfaceWeights operator+(SurfaceWeights a, SurfaceWeights b)
+{
+  return { a.White + b.White, a.WhiteSchlick + b.WhiteSchlick, a.Lambert + b.Lambert,
+    a.LambertSchlick + b.LambertSchlick };
+}
+SurfaceWeights operator*(double k, SurfaceWeights a)
+{
+  return { k * a.White, k * a.WhiteSchlick, k * a.Lambert, k * a.LambertSchlick };
+}
+
 struct SurfaceKernel
 {
-  using Weight = Vec3;
-  Vec3 N, V;
-  double Alpha;
+  using Weight = SurfaceWeights;
+  const Facets& Surface;
+  Vec3 V;
 
-  double Height(Vec3 l) const { return Dot(this->N, l); }
-  // D changes over sqrt(sin^2 + a^2 cos^2) of the half vector's angle; turning L by x turns H by at most
-  // x / (2 LoH).
+  double Height(Vec3 l) const { return Dot(this->Surface.N, l); }
+  // D ~ q^-2 changes over sqrt(q) times the smaller alpha of the half vector's angle; turning L by x turns H by
+  // at most x / (2 LoH).
   double Scale(Vec3 l) const
   {
-    const Vec3 H = Normalize(l + this->V), across = Cross(this->N, H);
-    const double s = Dot(across, across);
-    return 2 * Dot(l, H) * std::sqrt(s + this->Alpha * this->Alpha * (1 - s));
+    const Vec3 H = Normalize(l + this->V);
+    return 2 * Dot(l, H) * std::min(this->Surface.AlphaT, this->Surface.AlphaB) * std::sqrt(this->Surface.Q(H));
   }
-  Vec3 operator()(Vec3 l) const
+  Weight operator()(Vec3 l) const
   {
     const double NoL = this->Height(l);
     if (NoL <= 0)
     {
-      return { 0, 0, 0 };
+      return {};
     }
-    const Vec3 H = Normalize(l + this->V), across = Cross(this->N, H);
+    const Vec3 H = Normalize(l + this->V);
     const double w = SchlickWeight(Dot(l, H));
-    const double specular = NoL * D_GGX(Dot(across, across), this->Alpha) *
-      V_SmithGGXCorrelated(NoL, Dot(this->N, this->V), this->Alpha);
-    return { specular * (1 - w), specular * w, (1 - w) * NoL / Pi };
+    const double specular = NoL * this->Surface.D(H) * this->Surface.Visibility(l, this->V);
+    return { specular, specular * w, NoL / Pi, w * NoL / Pi };
   }
 };
+
+ReflectedParts Reflect(const Quadrature& quadrature, const Facets& facets, Vec3 V, double refinement)
+{
+  ReflectedParts parts{};
+  quadrature.ForEachTexel(
+    SurfaceKernel{ facets, V }, refinement, [&](const double* radiance, const SurfaceWeights& weight) {
+      for (int c = 0; c < 3; ++c)
+      {
+        parts.White[c] += radiance[c] * weight.White;
+        parts.WhiteSchlick[c] += radiance[c] * weight.WhiteSchlick;
+        parts.Lambert[c] += radiance[c] * weight.Lambert;
+        parts.LambertSchlick[c] += radiance[c] * weight.LambertSchlick;
+      }
+    });
+  return parts;
+}
+
+Facets Isotropic(Vec3 N, double perceptualRoughness)
+{
+  const double alpha = perceptualRoughness * perceptualRoughness;
+  return { N, std::abs(N.y) < 0.9 ? Vec3{ 0, 1, 0 } : Vec3{ 1, 0, 0 }, alpha, alpha };
+}
 
 RGB Prefilter(const Quadrature& quadrature, Vec3 normal, double perceptualRoughness, double refinement)
 {
@@ -300,18 +333,57 @@ std::vector<RGB> PrefilterAll(const Environment& environment, const std::vector<
   return result;
 }
 
+RGB ReflectedParts::Combine(RGB f0, RGB f90, RGB diffuseAlbedo) const
+{
+  RGB sum;
+  for (int c = 0; c < 3; ++c)
+  {
+    sum[c] = f0[c] * (this->White[c] - this->WhiteSchlick[c]) + f90[c] * this->WhiteSchlick[c] +
+      diffuseAlbedo[c] * ((1 - f0[c]) * this->Lambert[c] - (f90[c] - f0[c]) * this->LambertSchlick[c]);
+  }
+  return sum;
+}
+
+ReflectedParts AnisotropicBRDFParts(const Environment& environment, const Facets& facets, Vec3 V, double refinement)
+{
+  return Reflect(Quadrature(environment), facets, V, refinement);
+}
+
+std::vector<ReflectedParts> FullBRDFPartsAll(const Environment& environment, const std::vector<Vec3>& normals, Vec3 V,
+  double perceptualRoughness, double refinement)
+{
+  const Quadrature quadrature(environment);
+  std::vector<ReflectedParts> result(normals.size());
+  ParallelFor(static_cast<int>(normals.size()), [&](int i) {
+    result[i] = Reflect(quadrature, Isotropic(normals[i], perceptualRoughness), V, refinement);
+  });
+  return result;
+}
+
+ReflectedParts FullBRDFParts(
+  const Environment& environment, Vec3 N, Vec3 V, double perceptualRoughness, double refinement)
+{
+  return AnisotropicBRDFParts(environment, Isotropic(N, perceptualRoughness), V, refinement);
+}
+
 RGB FullBRDFRadiance(const Environment& environment, Vec3 N, Vec3 V, double perceptualRoughness, RGB f0,
   RGB diffuseAlbedo, double refinement)
 {
-  const SurfaceKernel kernel{ N, V, perceptualRoughness * perceptualRoughness };
-  RGB sum{};
-  Quadrature(environment).ForEachTexel(kernel, refinement, [&](const double* radiance, Vec3 weight) {
-    for (int c = 0; c < 3; ++c)
-    {
-      sum[c] += radiance[c] * (f0[c] * weight.x + weight.y + diffuseAlbedo[c] * (1 - f0[c]) * weight.z);
-    }
-  });
-  return sum;
+  return FullBRDFParts(environment, N, V, perceptualRoughness, refinement).Combine(f0, { 1, 1, 1 }, diffuseAlbedo);
+}
+
+RGB CoatedRadiance(
+  const Environment& environment, Vec3 N, Vec3 V, const Coat& coat, RGB base, double refinement)
+{
+  const RGB f0 = { coat.F0, coat.F0, coat.F0 };
+  const SplitSum sum = SplitSumAB(std::min(1.0, Dot(N, V)), coat.PerceptualRoughness); // 1 may be rounded up
+  RGB radiance = FullBRDFRadiance(environment, N, V, coat.PerceptualRoughness, f0, { 0, 0, 0 }, refinement);
+  for (int c = 0; c < 3; ++c)
+  {
+    radiance[c] = coat.Strength * radiance[c] +
+      (1 - coat.Strength * (coat.F0 * sum.A + sum.B)) * coat.Tint[c] * base[c];
+  }
+  return radiance;
 }
 
 // ---- Irradiance ----------------------------------------------------------------------------------------
