@@ -1,7 +1,9 @@
 // The environment behind the scene, sharp or as a rough mirror shows it.
 // Reads: the specular ladder, see vtkIBLLayers.glsl.
 in vec2 ndc;
-out vec4 color;
+layout(location = 0) out vec4 color;
+layout(location = 1) out vec4 positionVC; // these two for vtkSSAOPass, where it has buffers of them: a sky far behind
+layout(location = 2) out vec4 normalVC;   // whatever there is, which occludes nothing; 6e4: they are half floats
 uniform float blur;             // perceptualRoughness; 0: sharp
 uniform vec2 viewScale;         // view-space x and y at depth 1 are (ndc + viewShift) * viewScale
 uniform vec2 viewShift;
@@ -27,5 +29,7 @@ void main()
     float w = lampKernels[i].y + lampKernels[i].x * oneMinusT;
     radiance += lampPowers[i] * (lampKernels[i].z * max(1.0 - oneMinusT, 0.0) / (w * w));
   }
+  positionVC = vec4(0.0, 0.0, -6e4, 1.0);
+  normalVC = vec4(0.0, 0.0, 1.0, 1.0);
   color = vec4(pow(radiance * radianceScale, vec3(encodingExponent)), 1.0);
 }

@@ -65,8 +65,10 @@ int vtkIBLBackground::RenderOpaqueGeometry(vtkViewport* viewport)
   {
     using namespace vtkIBLGL;
     Internals& gl = *this->Internal;
-    if (!gl.Program)
+    if (!gl.Program.IsIn(window))
     {
+      gl = Internals(); // in whichever context it was
+      window->MakeCurrent();
       gl.Program = Program::Draw(window, "vtkIBLBackgroundVS.glsl", "vtkIBLBackgroundFS.glsl");
       gl.NoVertices = VertexArray::Make(window);
     }

@@ -68,9 +68,14 @@ Object& Object::operator=(Object&& other) noexcept
   return *this;
 }
 
+bool Object::IsIn(vtkOpenGLRenderWindow* window) const
+{
+  return this->Name && this->Window == window && window && window->GetContextCreationTime() == this->ContextTime;
+}
+
 void Object::Delete()
 {
-  if (this->Name && this->Window && this->Window->GetContextCreationTime() == this->ContextTime)
+  if (this->IsIn(this->Window))
   {
     this->Window->MakeCurrent();
     this->DeleteName(this->Name);

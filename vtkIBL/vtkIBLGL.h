@@ -33,6 +33,8 @@ public:
   GLuint Id() const { return this->Name; }
   explicit operator bool() const { return this->Name != 0; }
   void Delete();
+  /// Whether it is there, in `window`'s present context.
+  bool IsIn(vtkOpenGLRenderWindow* window) const;
 
   using Deleter = void (*)(GLuint);
   Object(vtkOpenGLRenderWindow* window, GLuint name, Deleter deleter);

@@ -8,6 +8,7 @@
 #include "vtkIBLLighting.h"
 
 #include "vtkActor.h"
+#include "vtkFrameBufferObjectBase.h"
 #include "vtkFramebufferPass.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -283,6 +284,21 @@ void vtkIBLRenderPass::RenderScene(const vtkRenderState* state)
   this->UpdateLightGeometry(renderer);
   this->UpdateLights(renderer);
   this->UpdateCamera(renderer);
+  if (vtkFrameBufferObjectBase* framebuffer = state->GetFrameBuffer())
+  {
+    // A pass around this one has a framebuffer of its own size, with its origin at 0; the camera knows only the
+    // window's.
+    int width = 0;
+    int height = 0;
+    framebuffer->GetLastSize(width, height);
+    vtkOpenGLState* gl = static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow())->GetState();
+    gl->vtkglViewport(0, 0, width, height);
+    gl->vtkglScissor(0, 0, width, height);
+    if (renderer->GetRenderWindow()->GetErase() && renderer->GetErase())
+    {
+      renderer->Clear();
+    }
+  }
   if (background)
   {
     this->Background->RenderOpaqueGeometry(renderer);

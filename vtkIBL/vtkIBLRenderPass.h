@@ -13,6 +13,13 @@
  * as they are. With no environment given, a built-in studio lights the scene. A scene without lights needs none: while
  * this pass renders, VTK makes no headlight of its own.
  *
+ * Other passes. Those that filter the picture (vtkSSAAPass, vtkOpenGLFXAAPass, vtkToneMappingPass, blurs) stand around
+ * this one; those that draw the scene (vtkRenderStepsPass, shadows in a vtkCameraPass) are its DelegatePass; vtkSSAOPass
+ * may be either. vtkToneMappingPass decodes what it gets: leave OutputEncoding at Display below it; its framebuffer
+ * holds floats, so nothing is cut off at 1. A DelegatePass peels translucent surfaces only if it holds a
+ * vtkDualDepthPeelingPass. Several renderers, of one window, may share one pass; windows share an environment, and have
+ * a pass each.
+ *
  * Leave vtkRenderer's UseImageBasedLighting off, or the actors get the environment twice.
  *
  * Needs OpenGL 4.5. Where there is less, one error says so, and the scene shows with VTK's own lights.
