@@ -16,6 +16,7 @@ uniform vec3 lampDirections[IBL_MAXIMUM_LAMPS];
 uniform vec3 lampPowers[IBL_MAXIMUM_LAMPS];
 uniform vec3 lampKernels[IBL_MAXIMUM_LAMPS]; // k, 1 - k, Scale
 
+#define IBL_MIRROR
 #include "vtkIBLLayers.glsl"
 
 void main()

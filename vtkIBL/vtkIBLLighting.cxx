@@ -113,49 +113,14 @@ vtkIBLStatistics* vtkIBLLighting::GetStatistics() const
   return this->Statistics;
 }
 
-template <typename T>
-void vtkIBLLighting::SetShaderOption(T& option, T value)
-{
-  if (value != option)
-  {
-    option = value;
-    this->ShaderTime.Modified();
-    this->Modified();
-  }
-}
-
 void vtkIBLLighting::SetReflectionModel(int model)
 {
-  this->SetShaderOption(this->ReflectionModel, std::clamp<int>(model, Physical, Classic));
-  this->BRDFTable->SetGeometryTerm(
-    this->ReflectionModel == Classic ? vtkIBLBRDFTable::SchlickSmith : vtkIBLBRDFTable::SmithCorrelated);
-}
-
-void vtkIBLLighting::SetEnergyCompensation(bool on)
-{
-  this->SetShaderOption(this->EnergyCompensation, on);
-}
-
-void vtkIBLLighting::SetSpecularOcclusion(bool on)
-{
-  this->SetShaderOption(this->SpecularOcclusion, on);
-}
-
-void vtkIBLLighting::SetHorizonOcclusion(bool on)
-{
-  this->SetShaderOption(this->HorizonOcclusion, on);
-}
-
-void vtkIBLLighting::SetSamplesPerPixel(int samples)
-{
-  samples = std::clamp(samples, 0, 65536);
-  if (samples != this->SamplesPerPixel)
+  model = std::clamp<int>(model, Physical, Classic);
+  if (model != this->ReflectionModel)
   {
-    if ((samples > 0) != (this->SamplesPerPixel > 0))
-    {
-      this->ShaderTime.Modified();
-    }
-    this->SamplesPerPixel = samples;
+    this->ReflectionModel = model;
+    this->BRDFTable->SetGeometryTerm(
+      model == Classic ? vtkIBLBRDFTable::SchlickSmith : vtkIBLBRDFTable::SmithCorrelated);
     this->Modified();
   }
 }
@@ -197,7 +162,7 @@ bool vtkIBLLighting::UpdateStages(vtkOpenGLRenderWindow* window, const vtkIBLSce
   this->CubeMap->SetMipLevelsNeeded(sampled || this->SpecularChain->GetEngine() == vtkIBLSpecularChain::Sampled ||
     environment->GetNumberOfFaces() == 6);
   bool ready = this->BRDFTable->Update(window);
-  if (sampled || this->Needs.MinimumRoughness < vtkIBLSpecularChain::GetFirstRoughness())
+  if (sampled || this->Needs.NeedsMirror())
   {
     ready = this->CubeMap->Update(window) && ready;
   }
@@ -206,8 +171,12 @@ bool vtkIBLLighting::UpdateStages(vtkOpenGLRenderWindow* window, const vtkIBLSce
     ready = this->SpecularChain->Update(window) && ready;
   }
   environment->KeepLight();
-  this->SetShaderOption(
-    this->NumberOfLamps, std::max(this->SpecularChain->GetNumberOfLamps() - (this->SunInEnvironment ? 0 : 1), 0));
+  const std::string text = this->MakeShaderText();
+  if (text != this->ShaderText)
+  {
+    this->ShaderText = text;
+    this->ShaderTime.Modified();
+  }
   return ready;
 }
 
@@ -394,6 +363,23 @@ void vtkIBLLighting::SetLamps(vtkShaderProgram* program, vtkRenderer* renderer)
   }
 }
 
+std::string vtkIBLLighting::MakeShaderText() const
+{
+  const int lamps = this->SpecularChain->GetNumberOfLamps() - (this->SunInEnvironment ? 0 : 1);
+  std::string text = "#define IBL_LAMPS " + std::to_string(std::max(lamps, 0)) + "\n";
+  const char* energy = this->ReflectionModel == Classic ? "IBL_CLASSIC"
+    : this->EnergyCompensation                          ? "IBL_MULTIPLE_SCATTER"
+                                                        : "IBL_SINGLE_SCATTER";
+  text += std::string("#define IBL_ENERGY ") + energy + "\n";
+  const auto define = [&](bool condition, const char* name)
+  { text += condition ? std::string("#define ") + name + "\n" : std::string(); };
+  define(this->Needs.NeedsMirror(), "IBL_MIRROR");
+  define(!this->Needs.Metal, "IBL_DIELECTRIC");
+  define(!this->Needs.Dielectric && this->Needs.Metal, "IBL_METAL");
+  define(this->SpecularOcclusion, "IBL_SPECULAR_OCCLUSION");
+  return text + vtkIBLAssembleChunk(this->SamplesPerPixel > 0 ? "vtkIBLLightingSampled.glsl" : "vtkIBLLighting.glsl");
+}
+
 std::string vtkIBLLighting::GetShaderChunk(const std::vector<std::string>& features) const
 {
   std::string defines;
@@ -401,15 +387,5 @@ std::string vtkIBLLighting::GetShaderChunk(const std::vector<std::string>& featu
   {
     defines += "#define " + feature + "\n";
   }
-  if (this->SpecularOcclusion)
-  {
-    defines += "#define IBL_SPECULAR_OCCLUSION\n";
-  }
-  const char* energy = this->ReflectionModel == Classic ? "IBL_CLASSIC"
-    : this->EnergyCompensation                          ? "IBL_MULTIPLE_SCATTER"
-                                                        : "IBL_SINGLE_SCATTER";
-  defines += "#define IBL_LAMPS " + std::to_string(this->NumberOfLamps) + "\n";
-  defines += std::string("#define IBL_ENERGY ") + energy + "\n";
-  return defines +
-    vtkIBLAssembleChunk(this->SamplesPerPixel > 0 ? "vtkIBLLightingSampled.glsl" : "vtkIBLLighting.glsl");
+  return defines + this->ShaderText;
 }

@@ -87,7 +87,7 @@ public:
    * under Schlick's term, in which a white metal of roughness 1 reflects 31 % at normal incidence. Classic has it
    * always.
    */
-  void SetEnergyCompensation(bool on);
+  vtkSetMacro(EnergyCompensation, bool);
   vtkGetMacro(EnergyCompensation, bool);
   vtkBooleanMacro(EnergyCompensation, bool);
   ///@}
@@ -120,7 +120,7 @@ public:
    * Ambient occlusion hides a reflection as much as it hides the directions that the reflection comes from (Lagarde &
    * de Rousiers 2014). Default on. Off: as much as diffuse light.
    */
-  void SetSpecularOcclusion(bool on);
+  vtkSetMacro(SpecularOcclusion, bool);
   vtkGetMacro(SpecularOcclusion, bool);
   vtkBooleanMacro(SpecularOcclusion, bool);
   ///@}
@@ -129,7 +129,7 @@ public:
   /**
    * On surfaces with a normal map, reflections that would come from below the surface itself fade out. Default on.
    */
-  void SetHorizonOcclusion(bool on);
+  vtkSetMacro(HorizonOcclusion, bool);
   vtkGetMacro(HorizonOcclusion, bool);
   vtkBooleanMacro(HorizonOcclusion, bool);
   ///@}
@@ -140,7 +140,7 @@ public:
    * the reflection integral itself with so many samples a pixel, read from the cube map: slow, and what the fast form
    * is judged by; 1024 leave about 1 %. At most 65536. Takes effect with the next frame.
    */
-  void SetSamplesPerPixel(int samples);
+  vtkSetClampMacro(SamplesPerPixel, int, 0, 65536);
   vtkGetMacro(SamplesPerPixel, int);
   ///@}
 
@@ -172,9 +172,10 @@ public:
    *     iblOutgoing iblEnvironmentLight(iblMaterial material, vec3 positionVC)
    *
    * the radiance that a surface sends to the camera. `features` are names of that file to define, IBL_COAT, say. And
-   * when the text last changed.
+   * when the text last changed. As of the last Update(): it reads the mirror only if that was needed since the light is
+   * what it is, and does the work of metals and dielectrics only if there were some.
    */
-  std::string GetShaderChunk(const std::vector<std::string>& features) const;
+  std::string GetShaderChunk(const std::vector<std::string>& features = {}) const;
   vtkMTimeType GetShaderTime() const { return this->ShaderTime.GetMTime(); }
   ///@}
 
@@ -204,17 +205,16 @@ private:
   vtkNew<vtkIBLCubeMap> CubeMap;
   vtkNew<vtkIBLSpecularChain> SpecularChain;
   vtkNew<vtkIBLBRDFTable> BRDFTable;
-  template <typename T>
-  void SetShaderOption(T& option, T value);
+  std::string MakeShaderText() const;
   void SetLamps(vtkShaderProgram* program, vtkRenderer* renderer);
   int ReflectionModel = Physical;
   bool EnergyCompensation = true;
   bool BrightTexels = true;
   bool SunInEnvironment = true;
-  int NumberOfLamps = 0; // that shaders know of
   bool SpecularOcclusion = true;
   bool HorizonOcclusion = true;
   int SamplesPerPixel = 0;
+  std::string ShaderText; // as of the last Update()
   vtkTimeStamp ShaderTime;
   vtkIBLSceneNeeds Needs; // since the light is what it is
   vtkMTimeType NeedsTime = 0;

@@ -7,7 +7,6 @@
 #include "vtkIBLGLHeader.h"
 #include "vtkIBLLighting.h"
 
-#include "vtkActor.h"
 #include "vtkFrameBufferObjectBase.h"
 #include "vtkFramebufferPass.h"
 #include "vtkImageData.h"
@@ -19,7 +18,6 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkProp.h"
-#include "vtkProperty.h"
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
@@ -363,21 +361,6 @@ bool Replace(std::string& shader, const std::string& what, const std::string& wi
   return vtkShaderProgram::Substitute(shader, what, with, false);
 }
 
-// Whether a surface is all dielectric, or all metal: then there is half as much to do. VTK makes a new shader when the
-// property changes.
-void AddMetallic(vtkProp* prop, std::vector<std::string>& features)
-{
-  auto* actor = vtkActor::SafeDownCast(prop);
-  if (actor && !actor->GetProperty()->GetTexture("materialTex"))
-  {
-    const double metallic = actor->GetProperty()->GetMetallic();
-    if (metallic <= 0.0 || metallic >= 1.0)
-    {
-      features.push_back(metallic <= 0.0 ? "IBL_DIELECTRIC" : "IBL_METAL");
-    }
-  }
-}
-
 bool Contains(const std::string& shader, const char* what)
 {
   return shader.find(what) != std::string::npos;
@@ -444,7 +427,7 @@ const char* const AddTranslucent =
 }
 
 bool vtkIBLRenderPass::PostReplaceShaderValues(
-  std::string&, std::string&, std::string& fragmentShader, vtkAbstractMapper*, vtkProp* prop)
+  std::string&, std::string&, std::string& fragmentShader, vtkAbstractMapper*, vtkProp*)
 {
   if (!this->Lit)
   {
@@ -467,7 +450,6 @@ bool vtkIBLRenderPass::PostReplaceShaderValues(
     {
       Replace(fragmentShader, "  color = mix(color, color * ao, aoStrengthUniform);\n", "");
     }
-    AddMetallic(prop, features);
     Replace(fragmentShader, emission, emission + MakePBRMaterial(fragmentShader, horizon, features) + evaluate + add);
     if (this->OutputEncoding == Linear)
     {
@@ -477,7 +459,6 @@ bool vtkIBLRenderPass::PostReplaceShaderValues(
   }
   else if (this->LightNonPBR && Contains(fragmentShader, "vec4(ambientColor + diffuse + specular, opacity)"))
   {
-    features.push_back("IBL_DIELECTRIC");
     Replace(fragmentShader, "//VTK::Light::Impl",
       "\n  {\n  vec3 color = pow(max(gl_FragData[0].rgb, vec3(0.0)), vec3(2.2));\n" + std::string(NonPBRMaterial) +
         evaluate + add + "  gl_FragData[0] = vec4(" +

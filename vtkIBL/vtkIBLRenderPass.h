@@ -14,9 +14,9 @@
  * this pass renders, VTK makes no headlight of its own.
  *
  * Other passes. Those that filter the picture (vtkSSAAPass, vtkOpenGLFXAAPass, vtkToneMappingPass, blurs) stand around
- * this one; those that draw the scene (vtkRenderStepsPass, shadows in a vtkCameraPass) are its DelegatePass; vtkSSAOPass
- * may be either. vtkToneMappingPass decodes what it gets: leave OutputEncoding at Display below it; its framebuffer
- * holds floats, so nothing is cut off at 1. A DelegatePass peels translucent surfaces only if it holds a
+ * this one; those that draw the scene (vtkRenderStepsPass, shadows in a vtkCameraPass) are its DelegatePass;
+ * vtkSSAOPass may be either. vtkToneMappingPass decodes what it gets: leave OutputEncoding at Display below it; its
+ * framebuffer holds floats, so nothing is cut off at 1. A DelegatePass peels translucent surfaces only if it holds a
  * vtkDualDepthPeelingPass. Several renderers, of one window, may share one pass; windows share an environment, and have
  * a pass each.
  *

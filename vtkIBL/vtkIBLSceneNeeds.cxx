@@ -3,6 +3,7 @@
 #include "vtkIBLSceneNeeds.h"
 
 #include "vtkIBLBRDFTable.h"
+#include "vtkIBLSpecularChain.h"
 
 #include "vtkActor.h"
 #include "vtkAssemblyPath.h"
@@ -21,13 +22,20 @@ void vtkIBLSceneNeeds::AddRoughness(double minimum, double maximum)
 void vtkIBLSceneNeeds::Add(const vtkIBLSceneNeeds& other)
 {
   this->Irradiance = this->Irradiance || other.Irradiance;
+  this->Metal = this->Metal || other.Metal;
+  this->Dielectric = this->Dielectric || other.Dielectric;
   this->AddRoughness(other.MinimumRoughness, other.MaximumRoughness);
+}
+
+bool vtkIBLSceneNeeds::NeedsMirror() const
+{
+  return this->MinimumRoughness < vtkIBLSpecularChain::GetFirstRoughness();
 }
 
 vtkIBLSceneNeeds vtkIBLSceneNeeds::Everything()
 {
   vtkIBLSceneNeeds needs;
-  needs.Irradiance = true;
+  needs.Irradiance = needs.Metal = needs.Dielectric = true;
   needs.AddRoughness(0.0, 1.0);
   return needs;
 }
@@ -50,6 +58,9 @@ vtkIBLSceneNeeds OfActor(vtkActor* actor, bool nonPBR)
     return needs;
   }
   needs.Irradiance = true;
+  const bool textured = property->GetTexture("materialTex") != nullptr;
+  needs.Metal = isPBR && (textured || property->GetMetallic() > 0.0);
+  needs.Dielectric = !isPBR || textured || property->GetMetallic() < 1.0;
   if (!isPBR)
   {
     if (property->GetSpecular() > 0.0)
@@ -59,7 +70,7 @@ vtkIBLSceneNeeds OfActor(vtkActor* actor, bool nonPBR)
     }
     return needs;
   }
-  if (property->GetTexture("materialTex"))
+  if (textured)
   {
     needs.AddRoughness(0.0, 1.0);
   }

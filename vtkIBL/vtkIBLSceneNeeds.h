@@ -29,6 +29,19 @@ struct VTKIBL_EXPORT vtkIBLSceneNeeds
   double MaximumRoughness = -1.0;
   ///@}
 
+  ///@{
+  /**
+   * Some surface may be metal in part, or dielectric in part.
+   */
+  bool Metal = false;
+  bool Dielectric = false;
+  ///@}
+
+  /**
+   * Whether a reflection is sharper than the first layer, so that the mirror is read.
+   */
+  bool NeedsMirror() const;
+
   bool HasReflections() const { return this->MinimumRoughness <= this->MaximumRoughness; }
   bool IsNothing() const { return !this->Irradiance && !this->HasReflections(); }
   void AddRoughness(double minimum, double maximum);

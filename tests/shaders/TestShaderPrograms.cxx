@@ -121,7 +121,7 @@ TEST_F(ShaderPrograms, FormulasAreValidInTheirOrder)
 }
 
 // Light for VTK's mappers, which are #version 150, between what VTK declares and its main. Mutants: a layout(binding =
-// 0); bitfieldReverse; an unsigned literal out of range.
+// 0); bitfieldReverse; an unsigned literal out of range; what only the mirror needs, used without it.
 TEST_F(ShaderPrograms, ChunksAreValidInVTKsShaders)
 {
   const std::vector<std::string> chunks =
@@ -129,9 +129,16 @@ TEST_F(ShaderPrograms, ChunksAreValidInVTKsShaders)
   EXPECT_NE(std::find(chunks.begin(), chunks.end(), "vtkIBLLighting.glsl"), chunks.end());
   for (const std::string& name : chunks)
   {
-    const std::string text = "#version 150\nin vec4 vertexVC;\nout vec4 fragOutput0;\n" + vtkIBLAssembleChunk(name) +
-      "void main()\n{\n  fragOutput0 = vertexVC;\n}\n";
-    EXPECT_EQ(this->Complaints(name, "frag", text), "") << name;
+    for (const std::string defines : { "#define IBL_LAMPS 0\n#define IBL_ENERGY IBL_MULTIPLE_SCATTER\n",
+           "#define IBL_LAMPS 8\n#define IBL_ENERGY IBL_SINGLE_SCATTER\n#define IBL_MIRROR\n#define IBL_COAT\n",
+           "#define IBL_LAMPS 1\n#define IBL_ENERGY IBL_CLASSIC\n#define IBL_METAL\n#define IBL_ANISOTROPY\n",
+           "#define IBL_LAMPS 2\n#define IBL_ENERGY IBL_MULTIPLE_SCATTER\n#define IBL_DIELECTRIC\n#define IBL_HORIZON\n"
+           "#define IBL_ANISOTROPY\n#define IBL_COAT\n#define IBL_OCCLUSION\n#define IBL_SPECULAR_OCCLUSION\n" })
+    {
+      const std::string text = "#version 150\n" + defines + "in vec4 vertexVC;\nout vec4 fragOutput0;\n" +
+        vtkIBLAssembleChunk(name) + "void main()\n{\n  fragOutput0 = vertexVC;\n}\n";
+      EXPECT_EQ(this->Complaints(name, "frag", text), "") << name << " " << defines;
+    }
   }
 }
 

@@ -13,6 +13,7 @@
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
 #include <vtkOpenGLRenderer.h>
+#include <vtkOpenGLState.h>
 #include <vtkPlane.h>
 #include <vtkPlaneCollection.h>
 #include <vtkPointData.h>
@@ -33,6 +34,8 @@
 
 namespace
 {
+constexpr unsigned int CubeMapSeamless = 0x884F; // GL_TEXTURE_CUBE_MAP_SEAMLESS
+
 // Radiance that tells every direction apart, smooth enough for a small map.
 RGB Coloured(Vec3 d)
 {
@@ -370,6 +373,48 @@ TEST_F(TestRenderPassGL, BackgroundShowsTheEnvironment)
   this->Pass->SetBackgroundBlur(0.0);
   picture = this->Pass->CaptureRadiance(this->Renderer);
   EXPECT_NEAR(static_cast<const float*>(picture->GetScalarPointer(48, 48, 0))[2], 0.6 + 0.4 * forward.z, 1e-2);
+}
+
+// Rough surfaces alone have shaders without the mirror. One that comes later, on the same mapper, shows it: a spot of
+// 10 in a sky of 0.1, of which layer 1, 1 degree wide, has 8.8; 2 %: white metal's own 0.5 %, texels. Seamless
+// filtering is as it was afterwards. Mutants: shaders that stay as they are; a mirror a mapper that another actor's
+// shader lacks; state left as the last actor had it.
+TEST_F(TestRenderPassGL, ReadsTheMirrorOnceSomethingIsOne)
+{
+  const auto hasMirror = [this]
+  { return this->Pass->GetLighting()->GetShaderChunk().find("#define IBL_MIRROR") != std::string::npos; };
+  this->Environment->SetInputData(MakePanorama(256,
+    [](Vec3 d)
+    {
+      const double l = d.z > std::cos(4 * vtkIBLReference::Pi / 180) ? 10 : 0.1;
+      return RGB{ l, l, l };
+    }));
+  this->Renderer->RemoveAllLights();
+  this->Renderer->SetPass(this->Pass);
+  vtkCamera* camera = this->Renderer->GetActiveCamera();
+  camera->SetPosition(0, 0, 5);
+  camera->SetFocalPoint(0, 0, 0);
+  this->Actor->SetPosition(-1.2, 0, 0);
+  this->Pass->CaptureRadiance(this->Renderer);
+  EXPECT_FALSE(hasMirror());
+
+  vtkNew<vtkActor> mirror;
+  mirror->SetMapper(this->Mapper);
+  mirror->GetProperty()->SetInterpolationToPBR();
+  mirror->GetProperty()->SetColor(1, 1, 1);
+  mirror->GetProperty()->SetMetallic(1);
+  mirror->GetProperty()->SetRoughness(0);
+  this->Renderer->AddActor(mirror);
+  for (bool seamless : { false, true })
+  {
+    this->Window->MakeCurrent();
+    this->Window->GetState()->SetEnumState(CubeMapSeamless, seamless);
+    vtkSmartPointer<vtkImageData> picture = this->Pass->CaptureRadiance(this->Renderer);
+    EXPECT_TRUE(hasMirror());
+    EXPECT_NEAR(static_cast<const float*>(picture->GetScalarPointer(48, 48, 0))[1], 10, 0.2);
+    EXPECT_EQ(this->Window->GetState()->GetEnumState(CubeMapSeamless), seamless);
+    this->Renderer->RemoveActor(this->Actor); // and then the mirror is the last that is drawn
+  }
 }
 
 // Through VTK's own chain of passes the picture is the same.
