@@ -83,7 +83,7 @@ struct Row
     , Map(std::move(map))
   {
   }
-  std::string Panel; // "cube", "irradiance", "layer 0.40", "filter 0.300", "table", "bake", "threads", "first frame" …
+  std::string Panel; // "cube", "layer 0.40", "filter 0.300", "table", "bake", "shading metal 0.30", "first frame" …
   std::string Engine;
   std::string Setting; // "512 samples"
   std::string Map;     // empty where the work has no map
@@ -124,6 +124,16 @@ std::vector<RGB> GetIrradianceTruth(const Map& map, const std::vector<Vec3>& dir
 /// Roughness at which layers are judged as a shader reads them.
 extern const std::vector<double> JudgedRoughness;
 std::string LayerPanel(double perceptualRoughness);
+
+/// What shading is judged by (BenchmarkShading.cxx).
+struct ShadedMaterial
+{
+  const char* Name;
+  double F0;
+};
+extern const std::vector<ShadedMaterial> ShadedMaterials;
+extern const std::vector<double> ShadedRoughness;
+std::string ShadingPanel(const ShadedMaterial& material, double perceptualRoughness);
 
 // ---- Engines -------------------------------------------------------------------------------------------
 
@@ -224,8 +234,9 @@ bool HasCmgen();
 
 // ---- Panels --------------------------------------------------------------------------------------------
 
-void RunStages(Session& session); // BenchmarkStages.cxx
-void RunFrames(Session& session); // BenchmarkFrames.cxx
+void RunStages(Session& session);  // BenchmarkStages.cxx
+void RunShading(Session& session); // BenchmarkShading.cxx
+void RunFrames(Session& session);  // BenchmarkFrames.cxx
 /// Renders one first frame and prints its seconds, and how often the disk had its light: the process that "first frame"
 /// starts. `fromFile`: its light comes from the file, or the cache, within these seconds; else from pixels in memory.
 int RunFirstFrame(const std::string& engine, const std::string& map, bool fromFile);

@@ -2,29 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a user waits for: the first frame and every later one, of a metal sphere, judged by the full reflection
 // integral.
-#include "Benchmark.h"
+#include "BenchmarkScene.h"
 
 #include "BenchmarkPeers.h"
 #include "vtkIBLCache.h"
-#include "vtkIBLEnvironment.h"
-#include "vtkIBLGLHeader.h"
-#include "vtkIBLLighting.h"
-#include "vtkIBLRenderPass.h"
-#include "vtkIBLSpecularChain.h"
 
-#include <vtkActor.h>
 #include <vtkCamera.h>
-#include <vtkFramebufferPass.h>
-#include <vtkOpenGLTexture.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkRenderStepsPass.h>
-#include <vtkRenderer.h>
 #include <vtkSphereSource.h>
-#include <vtkTextureObject.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
@@ -39,151 +25,39 @@ constexpr int PictureSize = 512;
 constexpr int Resolution = 222; // 2 * 222 * 221 = 98124 triangles
 constexpr double Roughness = 0.4;
 
-struct FrameEngine
+vtkSmartPointer<vtkPolyData> MakeSphere()
 {
-  const char* Name;
-  const char* Setting;
-  bool PBR;
-  bool VTKLight;       // VTK's own image-based lighting
-  int SamplesPerPixel; // of vtkIBLRenderPass; -1: none
-  bool Spectral;       // vtkIBLSpecularChain's engine
-};
-const FrameEngine FrameEngines[] = {
-  { "VTK", "Phong", false, false, -1, false },
-  { "VTK", "PBR, no IBL", true, false, -1, false },
-  { "VTK", "PBR + IBL", true, true, -1, false },
-  { "vtkIBL", "spectral layers", true, false, 0, true },
-  { "vtkIBL sampled", "sampled layers", true, false, 0, false },
-  { "vtkIBL per pixel", "16 samples a pixel", true, false, 16, false },
-  { "vtkIBL per pixel", "64 samples a pixel", true, false, 64, false },
-};
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetThetaResolution(Resolution);
+  sphere->SetPhiResolution(Resolution);
+  sphere->SetRadius(1);
+  sphere->Update();
+  return sphere->GetOutput();
+}
 
-/// A white metal sphere that fills most of the picture, seen in parallel projection along -z, lit by the map alone.
-class Scene
+/// A white metal sphere that fills most of the picture, seen from afar along -z.
+class Sphere : public Scene
 {
 public:
-  Scene(const FrameEngine& engine, const Map& map, bool fromFile = false)
+  Sphere(const FrameEngine& engine, const Map& map, bool fromFile = false)
+    : Scene(engine, map, MakeSphere(), PictureSize, PictureSize, fromFile)
   {
-    this->Window->SetSize(PictureSize, PictureSize);
-    this->Window->AddRenderer(this->Renderer);
-    vtkNew<vtkSphereSource> sphere;
-    sphere->SetThetaResolution(Resolution);
-    sphere->SetPhiResolution(Resolution);
-    sphere->SetRadius(1);
-    sphere->Update();
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(sphere->GetOutput());
-    this->Actor->SetMapper(mapper);
-    vtkProperty* property = this->Actor->GetProperty();
-    property->SetColor(1, 1, 1);
-    if (engine.PBR)
-    {
-      property->SetInterpolationToPBR();
-      property->SetMetallic(1);
-      property->SetRoughness(Roughness);
-    }
-    else
-    {
-      property->SetInterpolationToPhong();
-    }
-    this->Renderer->AddActor(this->Actor);
-    vtkCamera* camera = this->Renderer->GetActiveCamera();
+    this->GetProperty()->SetColor(1, 1, 1);
+    this->GetProperty()->SetMetallic(1);
+    this->GetProperty()->SetRoughness(Roughness);
+    vtkCamera* camera = this->GetCamera();
     camera->SetPosition(0, 0, 100); // far, for VTK takes every eye for a perspective one
     camera->SetFocalPoint(0, 0, 0);
     camera->SetViewUp(0, 1, 0);
     camera->SetViewAngle(2 * std::atan(1.1 / 100) * 180 / reference::Pi);
     camera->SetClippingRange(90, 110);
-    if (engine.VTKLight)
-    {
-      this->Texture->SetInputData(map.Image);
-      this->Texture->MipmapOn();
-      this->Texture->InterpolateOn();
-      this->Texture->SetColorModeToDirectScalars();
-      this->Renderer->SetEnvironmentTexture(this->Texture, false);
-      this->Renderer->UseImageBasedLightingOn();
-      this->Renderer->AutomaticLightCreationOff();
-    }
-    if (engine.SamplesPerPixel >= 0)
-    {
-      vtkNew<vtkIBLEnvironment> environment;
-      if (fromFile)
-      {
-        environment->SetFileName(map.File.c_str());
-      }
-      else
-      {
-        environment->SetInputData(map.Image);
-      }
-      this->Pass->SetEnvironment(environment);
-      this->Pass->GetLighting()->SetSamplesPerPixel(engine.SamplesPerPixel);
-      this->Pass->GetLighting()->GetSpecularChain()->SetEngine(
-        engine.Spectral ? vtkIBLSpecularChain::Spectral : vtkIBLSpecularChain::Sampled);
-      this->Renderer->SetPass(this->Pass);
-      this->Renderer->AutomaticLightCreationOff();
-    }
-    this->Window->Initialize();
   }
-  ~Scene() { this->Window->Finalize(); }
-  Scene(const Scene&) = delete;
-  Scene& operator=(const Scene&) = delete;
-
-  Sample Render()
-  {
-    this->Window->MakeCurrent();
-    glFinish();
-    return Clock(
-      [&]
-      {
-        this->Window->Render();
-        this->Window->MakeCurrent();
-        glFinish();
-      });
-  }
-
-  vtkIBLRenderPass* GetPass() { return this->Pass; }
-
-  /// Linear radiance, float RGBA; VTK's own from its display encoding.
-  vtkSmartPointer<vtkImageData> Capture(const FrameEngine& engine)
-  {
-    if (engine.SamplesPerPixel >= 0)
-    {
-      return this->Pass->CaptureRadiance(this->Renderer);
-    }
-    vtkNew<vtkRenderStepsPass> steps;
-    vtkNew<vtkFramebufferPass> framebuffer;
-    framebuffer->SetColorFormat(vtkTextureObject::Float32);
-    framebuffer->SetDelegatePass(steps);
-    this->Renderer->SetPass(framebuffer);
-    this->Window->Render();
-    this->Window->MakeCurrent();
-    vtkTextureObject* texture = framebuffer->GetColorTexture();
-    auto image = vtkSmartPointer<vtkImageData>::New();
-    image->SetDimensions(int(texture->GetWidth()), int(texture->GetHeight()), 1);
-    image->AllocateScalars(VTK_FLOAT, 4);
-    glGetTextureImage(texture->GetHandle(), 0, GL_RGBA, GL_FLOAT,
-      GLsizei(4 * sizeof(float) * image->GetNumberOfPoints()), image->GetScalarPointer());
-    framebuffer->ReleaseGraphicsResources(this->Window);
-    this->Renderer->SetPass(nullptr);
-    auto* value = static_cast<float*>(image->GetScalarPointer());
-    std::transform(
-      value, value + 4 * image->GetNumberOfPoints(), value, [](float x) { return std::pow(std::max(x, 0.0f), 2.2f); });
-    return image;
-  }
-
-private:
-  vtkNew<vtkIBLOffscreenWindow> Window;
-  vtkNew<vtkRenderer> Renderer;
-  vtkNew<vtkActor> Actor;
-  vtkNew<vtkOpenGLTexture> Texture;
-  vtkNew<vtkIBLRenderPass> Pass;
 };
 
-/// Error of the picture against single scattering's full integral, so without energy compensation.
-Error JudgePicture(const Session& session, Scene& scene, const FrameEngine& engine, const Map& map)
+/// Error of the picture against the full integral.
+Error JudgePicture(const Session& session, Scene& scene, const Map& map)
 {
-  scene.GetPass()->GetLighting()->EnergyCompensationOff();
-  vtkSmartPointer<vtkImageData> picture = scene.Capture(engine);
-  scene.GetPass()->GetLighting()->EnergyCompensationOn();
+  vtkSmartPointer<vtkImageData> picture = scene.Capture();
   // A Fibonacci spiral over the disc, out to N.V = 0.3: further out a pixel covers too many directions.
   const int count = session.Options.Quick ? 24 : 96;
   std::vector<RGB> values;
@@ -216,11 +90,6 @@ Error JudgePicture(const Session& session, Scene& scene, const FrameEngine& engi
   return Judge(values, truth);
 }
 
-bool IsLit(const FrameEngine& engine)
-{
-  return engine.VTKLight || engine.SamplesPerPixel >= 0;
-}
-
 /// The steady frame's, if that is known, or a new one's: the picture is the same.
 Error FindPictureError(const Session& session, const FrameEngine& engine, const Map& map)
 {
@@ -231,19 +100,19 @@ Error FindPictureError(const Session& session, const FrameEngine& engine, const 
       return *row.Error;
     }
   }
-  Scene scene(engine, map);
+  Sphere scene(engine, map);
   scene.Render();
-  return JudgePicture(session, scene, engine, map);
+  return JudgePicture(session, scene, map);
 }
 
 void RunSteadyFrame(Session& session, const FrameEngine& engine, const Map& map)
 {
-  Scene scene(engine, map);
+  Sphere scene(engine, map);
   scene.Render();
   Row row("steady frame", engine.Name, engine.Setting, map.Name);
-  if (IsLit(engine))
+  if (engine.IsLit())
   {
-    row.Error = JudgePicture(session, scene, engine, map);
+    row.Error = JudgePicture(session, scene, map);
     scene.Render();
   }
   row.Samples = Repeat([&] { return scene.Render(); }, session.Options.Repeat, 1.5, 2);
@@ -251,18 +120,6 @@ void RunSteadyFrame(Session& session, const FrameEngine& engine, const Map& map)
   row.Note =
     engine.SamplesPerPixel > 0 ? "the reflection integral itself, estimated in every pixel: slow, and converges" : "";
   session.Add(row);
-}
-
-const FrameEngine& FindEngine(const std::string& setting)
-{
-  for (const FrameEngine& engine : FrameEngines)
-  {
-    if (setting == engine.Setting)
-    {
-      return engine;
-    }
-  }
-  throw std::runtime_error("there is no engine " + setting);
 }
 
 /// How warm a process starts.
@@ -301,7 +158,7 @@ void RunFirstFrames(Session& session, const FrameEngine& engine, const Start& st
   }
   const auto time = [&] { return run().first; };
   Row row("first frame", engine.Name, std::string(engine.Setting) + start.Name, map.Name);
-  if (IsLit(engine))
+  if (engine.IsLit())
   {
     row.Error = FindPictureError(session, engine, map);
   }
@@ -315,7 +172,7 @@ int RunFirstFrame(const std::string& setting, const std::string& map, bool fromF
 {
   const Map loaded = LoadMap(map);
   vtkIBLCache::SetEnabled(fromFile); // VTKIBL_CACHE says whether of the disk, too
-  Scene scene(FindEngine(setting), loaded, fromFile);
+  Sphere scene(FindEngine(setting), loaded, fromFile);
   const Sample sample = scene.Render();
   std::printf("%.6f %.6f %d\n", sample.Wall, sample.CPU, int(vtkIBLCache::GetNumberOfDiskHits()));
   return 0;
@@ -329,7 +186,7 @@ void RunFrames(Session& session)
     {
       for (const FrameEngine& engine : FrameEngines)
       {
-        if (!session.Options.Quick || engine.SamplesPerPixel <= 16)
+        if (engine.IsInteractive() && (!session.Options.Quick || engine.SamplesPerPixel <= 16))
         {
           RunSteadyFrame(session, engine, map);
         }

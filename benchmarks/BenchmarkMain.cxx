@@ -40,6 +40,7 @@ int Run(Session& session)
   std::filesystem::create_directories(session.Options.Output);
   Prepare(session);
   RunStages(session);
+  RunShading(session);
   RunFrames(session);
   RunThreads(session);
   RunGrowth(session);

@@ -250,6 +250,63 @@ void WriteTarget(std::ostream& out, const char* what, double bound, double measu
   out << " |\n";
 }
 
+/// Mean over maps, roughness and materials.
+double FindShading(const Session& session, const std::string& engine, const std::string& setting)
+{
+  double mean = 0;
+  for (const ShadedMaterial& material : ShadedMaterials)
+  {
+    const std::string kind = std::string("shading ") + material.Name;
+    mean += FindOverRoughness(session, kind, engine, setting, GetRead, 0, 1, false) / double(ShadedMaterials.size());
+  }
+  return mean;
+}
+
+void WriteShadingTable(std::ostream& out, const Session& session)
+{
+  out << "| engine | setting | f0 |";
+  std::string line = "|---|---|--:|";
+  for (double roughness : ShadedRoughness)
+  {
+    out << Format(" %.2f |", roughness);
+    line += "--:|";
+  }
+  out << " mean | both | steady frame, wall ms |\n" << line << "--:|--:|--:|\n";
+  const auto first = [](const ShadedMaterial& material) { return ShadingPanel(material, ShadedRoughness.front()); };
+  for (const Summary& s : Summarize(session, first(ShadedMaterials.front())))
+  {
+    for (const ShadedMaterial& material : ShadedMaterials)
+    {
+      out << "| " << s.Engine << " | " << s.Setting << " | " << Format("%g", material.F0) << " |";
+      double mean = 0;
+      for (double roughness : ShadedRoughness)
+      {
+        for (const Summary& cell : Summarize(session, ShadingPanel(material, roughness)))
+        {
+          if (cell.Engine == s.Engine && cell.Setting == s.Setting)
+          {
+            out << " " << FormatPercent(cell.MeanError) << " (" << FormatPercent(cell.MedianError) << ") |";
+            mean += cell.MeanError / double(ShadedRoughness.size());
+          }
+        }
+      }
+      out << " " << FormatPercent(mean) << " |";
+      if (&material == &ShadedMaterials.front())
+      {
+        const double both = FindShading(session, s.Engine, s.Setting);
+        const double seconds = Find(session, "steady frame", s.Engine, s.Setting, GetSeconds);
+        out << " " << (std::isfinite(both) ? FormatPercent(both) : "-") << " | "
+            << (std::isfinite(seconds) ? Format("%.1f", 1e3 * seconds) : "-") << " |\n";
+      }
+      else
+      {
+        out << " | |\n";
+      }
+    }
+  }
+  out << "\n";
+}
+
 /// What the project has set itself.
 void WriteTargets(std::ostream& out, const Session& session)
 {
@@ -290,6 +347,20 @@ void WriteTargets(std::ostream& out, const Session& session)
     first("vtkIBL", "spectral layers, cached") - unlit, 1e3, " ms");
   WriteTarget(out, "sampled engine, 64 samples, filter alone, layers above 0.4", 0.005, taps(0.4, 1), 100, " %");
   WriteTarget(out, "the same, layers below 0.4", 0.04, taps(0, 0.4), 100, " %");
+  const auto frame = [&](const char* engine, const char* setting)
+  { return Find(session, "steady frame", engine, setting, GetSeconds); };
+  WriteTarget(out, "shading against the reflection integral, mean of all maps, roughnesses and both f0", 0.11,
+    FindShading(session, "vtkIBL", "spectral layers"), 100, " %");
+  WriteTarget(out, "the same with bright texels kept apart", 0.05,
+    FindShading(session, "vtkIBL", "spectral layers, bright texels"), 100, " %");
+  WriteTarget(out, "the same, 1024 samples a pixel", 0.02,
+    FindShading(session, "vtkIBL per pixel", "1024 samples a pixel"), 100, " %");
+  WriteTarget(out, "the same, 16384 samples a pixel", 0.005,
+    FindShading(session, "vtkIBL per pixel", "16384 samples a pixel"), 100, " %");
+  WriteTarget(
+    out, "steady frame over VTK's PBR + IBL", 1, frame("vtkIBL", "spectral layers") / frame("VTK", "PBR + IBL"), 1, "");
+  WriteTarget(out, "steady frame over VTK's PBR without IBL", 1.3,
+    frame("vtkIBL", "spectral layers") / frame("VTK", "PBR, no IBL"), 1, "");
   WriteTarget(out, "growth: slope of log(time) over log(source texels)", 1,
     FitSlope(Summarize(session, "growth source"), "vtkIBL") / 2, 1, "");
   out << "\n";
@@ -484,11 +555,22 @@ void WriteMarkdown(const Session& session)
   WriteStageTable(out, session, "first frame");
   WriteLightCost(out, session);
 
-  out << "## 3. Steady frame\n\nThe same scene, every further frame.\n\n";
+  out << "## 3. Shading\n\nWhat a sphere shows in parallel projection against the full reflection integral of single "
+         "scattering (so without our energy compensation): a white metal, f0 = 1, and VTK's default dielectric, f0 = "
+         "0.04, black below its specular lobe. "
+      << (options.Quick ? 24 : 96)
+      << " normals evenly over the disc out to N.V = 0.05, on flat tiles, so that no facet errs; error in %, mean "
+         "(median) "
+         "over the maps, by perceptual roughness. \"exact, plain split sum\": the reference's own prefilter along R "
+         "times "
+         "its own f0 A + B, so that what is off is the split sum itself.\n\n";
+  WriteCommand(out, "shading");
+  WriteShadingTable(out, session);
+  out << "## 4. Steady frame\n\nThe same scene, every further frame.\n\n";
   WriteCommand(out, "steady frame");
   WriteStageTable(out, session, "steady frame");
 
-  out << "## 4. Cost growth\n\nThe whole bake (cmgen: layers at 256 samples only) of "
+  out << "## 5. Cost growth\n\nThe whole bake (cmgen: layers at 256 samples only) of "
       << (options.Maps.empty() ? std::string() : options.Maps.front())
       << ", resized. VTK is measured up to 2048 x 1024: larger takes minutes, and slow ones are repeated less (see "
          "runs).\n\n";
@@ -498,11 +580,11 @@ void WriteMarkdown(const Session& session)
   WriteCommand(out, "growth face");
   WriteGrowthTable(out, session, "growth face", "face edge");
 
-  out << "## 5. On the CPU, before the GPU\n\nBy Google Benchmark; nothing to trade against error.\n\n";
+  out << "## 6. On the CPU, before the GPU\n\nBy Google Benchmark; nothing to trade against error.\n\n";
   WriteCommand(out, "function");
   WriteStageTable(out, session, "function");
 
-  out << "## 6. Others\n\n" << OthersText << "## Where we are behind\n\n";
+  out << "## 7. Others\n\n" << OthersText << "## Where we are behind\n\n";
   WriteBehind(out, session);
 }
 
