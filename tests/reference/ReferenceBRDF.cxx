@@ -24,7 +24,11 @@ double V_SmithGGXCorrelated(double NoL, double NoV, double alpha)
   return 0.5 / (NoL * root(NoV) + NoV * root(NoL));
 }
 
-double SchlickWeight(double VoH) { return std::pow(1 - std::min(VoH, 1.0), 5); }
+double SchlickWeight(double VoH)
+{
+  const double x = 1 - std::min(VoH, 1.0);
+  return x * x * x * x * x; // with std::pow an integral takes a third longer
+}
 
 SplitSum SplitSumAB(double NoV, double perceptualRoughness, Geometry geometry, double refinement)
 {
