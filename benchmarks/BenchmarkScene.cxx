@@ -24,6 +24,8 @@ const std::vector<FrameEngine> FrameEngines = {
   { "VTK", "PBR, no IBL", true, false, -1, nullptr },
   { "VTK", "PBR + IBL", true, true, -1, nullptr },
   { "vtkIBL", "spectral layers", true, false, 0, nullptr },
+  { "vtkIBL", "spectral layers, lamps in them", true, false, 0,
+    [](vtkIBLLighting* lighting) { lighting->BrightTexelsOff(); } },
   { "vtkIBL sampled", "sampled layers", true, false, 0,
     [](vtkIBLLighting* lighting) { lighting->GetSpecularChain()->SetEngine(vtkIBLSpecularChain::Sampled); } },
   { "vtkIBL per pixel", "16 samples a pixel", true, false, 16, nullptr },
