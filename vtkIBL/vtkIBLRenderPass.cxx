@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIBLRenderPass.h"
 
+#include "vtkIBLBRDFTable.h"
 #include "vtkIBLBackground.h"
 #include "vtkIBLEnvironment.h"
-#include "vtkIBLGLHeader.h"
+#include "vtkIBLGL.h"
 #include "vtkIBLLighting.h"
 
+#include "vtkCamera.h"
 #include "vtkFrameBufferObjectBase.h"
 #include "vtkFramebufferPass.h"
 #include "vtkImageData.h"
@@ -14,10 +16,12 @@
 #include "vtkInformationObjectBaseVectorKey.h"
 #include "vtkLight.h"
 #include "vtkLightCollection.h"
+#include "vtkMath.h"
+#include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
-#include "vtkProp.h"
+#include "vtkProp3D.h"
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
@@ -113,6 +117,21 @@ private:
   vtkLightCollection* Lights;
   vtkLight* Light;
 };
+
+double GetDeterminant3x3(const vtkMatrix4x4* matrix)
+{
+  return vtkMath::Determinant3x3(matrix->Element[0], matrix->Element[1], matrix->Element[2]);
+}
+
+// Whether what is counterclockwise in `prop`'s data runs clockwise in the picture. (A projection looks along -z, so its
+// own determinant is negative.)
+bool IsMirrored(vtkProp3D* prop, vtkCamera* camera)
+{
+  prop->ComputeMatrix();
+  return GetDeterminant3x3(prop->GetMatrix()) * GetDeterminant3x3(camera->GetModelViewTransformMatrix()) *
+    camera->GetProjectionTransformMatrix(1, -1, 1)->Determinant() >
+    0;
+}
 }
 
 vtkIBLRenderPass::vtkIBLRenderPass()
@@ -223,8 +242,10 @@ void vtkIBLRenderPass::Render(const vtkRenderState* state)
     this->RenderScene(state);
     return;
   }
-  // A selection never waits for light, but keeps the shaders that the last frame had.
-  const bool lit = window && (renderer->GetSelector() ? this->Lit : this->Lighting->Update(window, needs));
+  // A selection never waits for light, but keeps the shaders that the last frame had in this window.
+  const bool lit = window &&
+    (renderer->GetSelector() ? this->Lit && this->Lighting->GetBRDFTable()->GetTexture().IsIn(window)
+                             : this->Lighting->Update(window, needs));
   if (lit != this->Lit)
   {
     this->Lit = lit;
@@ -470,13 +491,22 @@ bool vtkIBLRenderPass::PostReplaceShaderValues(
   {
     return true;
   }
-  Replace(fragmentShader, "void main()", this->Lighting->GetShaderChunk(features) + "void main()");
+  // VTK turns the normals of back faces, and takes all faces of a mirrored actor for such.
+  Replace(fragmentShader, "(gl_FrontFacing == false) { normalVCVSOutput",
+    "(gl_FrontFacing == iblMirrored) { normalVCVSOutput");
+  Replace(fragmentShader, "void main()",
+    "uniform bool iblMirrored;\n" + this->Lighting->GetShaderChunk(features) + "void main()");
   return true;
 }
 
 bool vtkIBLRenderPass::SetShaderParameters(
-  vtkShaderProgram* program, vtkAbstractMapper*, vtkProp*, vtkOpenGLVertexArrayObject*)
+  vtkShaderProgram* program, vtkAbstractMapper*, vtkProp* prop, vtkOpenGLVertexArrayObject*)
 {
+  auto* prop3D = vtkProp3D::SafeDownCast(prop);
+  if (this->Renderer && prop3D && program->IsUniformUsed("iblMirrored"))
+  {
+    program->SetUniformi("iblMirrored", IsMirrored(prop3D, this->Renderer->GetActiveCamera()));
+  }
   if (this->Renderer && program->IsUniformUsed("iblRadianceScale"))
   {
     this->Lighting->SetShaderParameters(program, this->Renderer);

@@ -13,12 +13,16 @@
  * as they are. With no environment given, a built-in studio lights the scene. A scene without lights needs none: while
  * this pass renders, VTK makes no headlight of its own.
  *
+ * Not VTK's: a mirrored actor, of negative scale, is lit on its outside, by all lights; VTK lights it from within.
+ * VTK's, and a surprise: colours are linear albedo, so a matt surface of a map's colour c shows c^(1/2.2) in light of 1;
+ * in VTK 9.1 only directional lights throw shadows on PBR surfaces.
+ *
  * Other passes. Those that filter the picture (vtkSSAAPass, vtkOpenGLFXAAPass, vtkToneMappingPass, blurs) stand around
  * this one; those that draw the scene (vtkRenderStepsPass, shadows in a vtkCameraPass) are its DelegatePass;
  * vtkSSAOPass may be either. vtkToneMappingPass decodes what it gets: leave OutputEncoding at Display below it; its
  * framebuffer holds floats, so nothing is cut off at 1. A DelegatePass peels translucent surfaces only if it holds a
- * vtkDualDepthPeelingPass. Several renderers, of one window, may share one pass; windows share an environment, and have
- * a pass each.
+ * vtkDualDepthPeelingPass. Several renderers of one window may share one pass; windows share an environment, and have a
+ * pass each.
  *
  * Leave vtkRenderer's UseImageBasedLighting off, or the actors get the environment twice.
  *

@@ -6,6 +6,7 @@
 #include "vtkIBLStatistics.h"
 
 #include <vtkCameraPass.h>
+#include <vtkDepthOfFieldPass.h>
 #include <vtkDualDepthPeelingPass.h>
 #include <vtkFramebufferPass.h>
 #include <vtkGPUVolumeRayCastMapper.h>
@@ -103,7 +104,8 @@ double Luma(const unsigned char* rgb)
 }
 }
 
-// A sphere of radius 0.5 that touches the floor y = 0, under one of VTK's lights.
+// A sphere of radius 0.5 that touches the floor y = 0, under one of VTK's lights: directional, since VTK's PBR knows no
+// shadows of others.
 class TestCompanyGL : public GLTest
 {
 protected:
@@ -227,12 +229,13 @@ protected:
 TEST_F(TestCompanyGL, AddsLightThroughEveryChain)
 {
   const Wrap outer[] = { Around<vtkSSAAPass>, Around<vtkOpenGLFXAAPass>, Around<vtkFramebufferPass>,
-    Around<vtkGaussianBlurPass>, Ambient,
+    Around<vtkGaussianBlurPass>, Around<vtkDepthOfFieldPass>, Ambient,
     [](vtkRenderPass* scene) { return Toned(scene, vtkToneMappingPass::Reinhard); },
     [](vtkRenderPass* scene) { return Around<vtkSSAAPass>(Ambient(scene)); } };
-  const char* names[] = { "SSAA", "FXAA", "framebuffer", "blur", "SSAO", "tone mapping", "SSAA around SSAO" };
+  const char* names[] = { "SSAA", "FXAA", "framebuffer", "blur", "depth of field", "SSAO", "tone mapping",
+    "SSAA around SSAO" };
   vtkNew<vtkRenderStepsPass> steps;
-  for (int i = 0; i < 7; ++i)
+  for (int i = 0; i < 8; ++i)
   {
     const std::string what = names[i];
     this->Pass->SetDelegatePass(nullptr);
@@ -507,6 +510,7 @@ TEST_F(TestCompanyGL, SharesAnEnvironmentAmongWindows)
   for (int i = 0; i < 2; ++i)
   {
     vtkNew<vtkIBLOffscreenWindow> window;
+    window->DebugContextOn();
     window->SetSize(Size, Size);
     vtkNew<vtkActor> ball;
     vtkNew<vtkActor> floor;
@@ -522,6 +526,7 @@ TEST_F(TestCompanyGL, SharesAnEnvironmentAmongWindows)
     renderer->SetPass(pass);
     window->AddRenderer(renderer);
     window->Render();
+    EXPECT_EQ(window->GetNumberOfHighSeverityMessages(), 0) << window->GetLastHighSeverityMessage();
     EXPECT_EQ(CountDifferences(GetPicture(window), first), 0);
     EXPECT_EQ(CountDifferences(this->Render(this->Pass), first), 0); // turn by turn
   }
@@ -537,6 +542,7 @@ TEST_F(TestCompanyGL, MovesAmongWindows)
   const Bytes first = this->Render(this->Pass);
   this->Renderer->SetPass(nullptr);
   vtkNew<vtkIBLOffscreenWindow> window;
+  window->DebugContextOn();
   window->SetSize(Size, Size);
   vtkNew<vtkActor> ball;
   vtkNew<vtkActor> floor;
@@ -550,6 +556,7 @@ TEST_F(TestCompanyGL, MovesAmongWindows)
   renderer->SetPass(this->Pass);
   window->AddRenderer(renderer);
   window->Render();
+  EXPECT_EQ(window->GetNumberOfHighSeverityMessages(), 0) << window->GetLastHighSeverityMessage();
   EXPECT_EQ(CountDifferences(GetPicture(window), first), 0);
   renderer->SetPass(nullptr);
   EXPECT_EQ(CountDifferences(this->Render(this->Pass), first), 0);
@@ -558,6 +565,7 @@ TEST_F(TestCompanyGL, MovesAmongWindows)
   window->RemoveRenderer(renderer);
   window->AddRenderer(this->Renderer);
   window->Render();
+  EXPECT_EQ(window->GetNumberOfHighSeverityMessages(), 0) << window->GetLastHighSeverityMessage();
   EXPECT_EQ(CountDifferences(GetPicture(window), first), 0);
   window->RemoveRenderer(this->Renderer);
   this->Renderer->ReleaseGraphicsResources(window);
