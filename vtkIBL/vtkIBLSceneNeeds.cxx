@@ -42,6 +42,19 @@ vtkIBLSceneNeeds vtkIBLSceneNeeds::Everything()
 
 namespace
 {
+// Props that show no surface of PBR interpolation, ever.
+bool IsNeverLit(vtkProp* prop)
+{
+  for (const char* kind : { "vtkActor2D", "vtkVolume", "vtkImageSlice", "vtkTextActor3D", "vtkBillboardTextActor3D" })
+  {
+    if (prop->IsA(kind))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 // A boundary of that roughness reads layers from the narrowest of its fitted lobes up.
 void AddLobes(vtkIBLSceneNeeds& needs, double narrow, double wide)
 {
@@ -93,7 +106,7 @@ vtkIBLSceneNeeds vtkIBLSceneNeeds::Of(vtkProp* const* props, int count, bool non
   vtkIBLSceneNeeds needs;
   for (int i = 0; i < count; ++i)
   {
-    if (!props[i]->GetVisibility() || props[i]->IsA("vtkActor2D") || props[i]->IsA("vtkVolume"))
+    if (!props[i]->GetVisibility() || IsNeverLit(props[i]))
     {
       continue;
     }
@@ -102,7 +115,7 @@ vtkIBLSceneNeeds vtkIBLSceneNeeds::Of(vtkProp* const* props, int count, bool non
     {
       vtkProp* leaf = path->GetLastNode()->GetViewProp();
       auto* actor = vtkActor::SafeDownCast(leaf);
-      needs.Add(actor ? OfActor(actor, nonPBR) : leaf->IsA("vtkVolume") ? vtkIBLSceneNeeds() : Everything());
+      needs.Add(actor ? OfActor(actor, nonPBR) : IsNeverLit(leaf) ? vtkIBLSceneNeeds() : Everything());
     }
   }
   return needs;

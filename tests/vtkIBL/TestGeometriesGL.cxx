@@ -835,6 +835,23 @@ TEST_F(TestGeometriesGL, SelectsBeforeTheFirstFrame)
   window->RemoveRenderer(this->Renderer);
 }
 
+// Labels, slices and volumes show no lit surface, so nothing is made for them, alone or in an assembly. Mutant: all
+// that is no actor taken for a surface of every roughness.
+TEST_F(TestGeometriesGL, NeedsNothingForLabelsAndSlices)
+{
+  vtkNew<vtkBillboardTextActor3D> billboard;
+  vtkNew<vtkTextActor3D> text;
+  vtkNew<vtkImageSlice> slice;
+  vtkNew<vtkVolume> volume;
+  vtkNew<vtkPropAssembly> assembly;
+  assembly->AddPart(text);
+  assembly->AddPart(slice);
+  vtkProp* props[] = { billboard, text, slice, volume, assembly, this->Actor };
+  EXPECT_TRUE(vtkIBLSceneNeeds::Of(props, 5).IsNothing());
+  EXPECT_EQ(vtkIBLSceneNeeds::Of(props, 6).MinimumRoughness, 0.5); // the actor's
+  EXPECT_EQ(vtkIBLSceneNeeds::Of(props, 6).MaximumRoughness, 0.5);
+}
+
 // What is not PBR is VTK's, with normals and without. Mutant: a mirrored Phong actor mended.
 TEST_F(TestGeometriesGL, LeavesOtherInterpolationsToVTK)
 {
