@@ -14,8 +14,8 @@
  * this pass renders, VTK makes no headlight of its own.
  *
  * Not VTK's: a mirrored actor, of negative scale, is lit on its outside, by all lights; VTK lights it from within.
- * VTK's, and a surprise: colours are linear albedo, so a matt surface of a map's colour c shows c^(1/2.2) in light of 1;
- * in VTK 9.1 only directional lights throw shadows on PBR surfaces.
+ * VTK's, and a surprise: colours are linear albedo, so a matt surface of a map's colour c shows c^(1/2.2) in light of
+ * 1; in VTK 9.1 only directional lights throw shadows on PBR surfaces.
  *
  * Other passes. Those that filter the picture (vtkSSAAPass, vtkOpenGLFXAAPass, vtkToneMappingPass, blurs) stand around
  * this one; those that draw the scene (vtkRenderStepsPass, shadows in a vtkCameraPass) are its DelegatePass;

@@ -535,6 +535,18 @@ TEST_F(TestGeometriesGL, LightsMirroredActors)
       t->RotateWXYZ(50, 1, 2, 3);
       t->Scale(0.6, -1, 0.9);
     });
+  // As part of a mirrored assembly, mirrored once more, and not.
+  this->Actor->SetUserMatrix(nullptr);
+  this->Renderer->RemoveActor(this->Actor);
+  vtkNew<vtkAssembly> assembly;
+  assembly->AddPart(this->Actor);
+  assembly->SetScale(-1, 0.8, 1);
+  this->Renderer->AddActor(assembly);
+  for (double scale : { 1.0, -1.0 })
+  {
+    this->Actor->SetScale(1, scale, 1);
+    this->ExpectEllipsoid("assembly", assembly->GetMatrix());
+  }
 }
 
 // A mirrored actor with a normal map shows the picture of the same geometry mirrored on the CPU, under VTK's light,
