@@ -1,23 +1,81 @@
 // Environment light by sampling the reflection integral, converging to what vtkIBLLighting.glsl approximates: visible half vectors for
-// what is reflected, cosine-weighted directions for the matt base, a shifted lattice a pixel.
+// what is reflected, cosine-weighted directions for the matt base, and for both the caps of the sky that hold lamps, in multiple
+// importance by the balance heuristic (Veach & Guibas 1995); a shifted lattice a pixel.
 uniform samplerCube iblRadiance; // mip levels weighted by solid angle
 uniform int iblSamplesPerPixel;
+uniform int iblFirstSample; // of those of this frame: so many had the frames before, in the same mean
+#if IBL_LAMPS > 0
+uniform vec4 iblLampCaps[IBL_LAMPS]; // middle, view space; 1 - cosine of the radius
+#endif
 
 #include "vtkIBLSurface.glsl"
 #include "vtkIBLDirectionFunctions.glsl"
 #include "vtkIBLSamplingFunctions.glsl"
 #include "vtkIBLBRDFFunctions.glsl"
 
-// The environment from `direction` [view space], at the mip level that one of so many samples of that density stands for.
+// The environment from `direction` [view space], at the mip level that one of so many samples of that density stands for: with those of
+// the frames before, so that the mean converges to the integral over the light, not over a blurred one.
 vec3 iblSampleRadiance(vec3 direction, float pdf)
 {
-  float level = max(iblFilteredLod(pdf, float(iblSamplesPerPixel), float(textureSize(iblRadiance, 0).x)), 0.0);
-  return textureLod(iblRadiance, iblEnvironmentFromView * direction, level).rgb;
+  float level = iblFilteredLod(pdf, float(iblFirstSample + iblSamplesPerPixel), float(textureSize(iblRadiance, 0).x));
+  return textureLod(iblRadiance, iblEnvironmentFromView * direction, max(level, 0.0)).rgb;
 }
 
 uint iblPixelShift()
 {
   return iblHash(uint(gl_FragCoord.x) + iblHash(uint(gl_FragCoord.y)));
+}
+
+// As many samples go to the lamps as to the surface's own density.
+int iblSamplesPerLamp()
+{
+#if IBL_LAMPS > 0
+  return max(iblSamplesPerPixel / IBL_LAMPS, 1);
+#else
+  return 0;
+#endif
+}
+
+// Density of the lamps' samples in a direction, a sample of the surface's counted as 1 [1/sr].
+float iblLampDensity(vec3 direction)
+{
+  float density = 0.0;
+#if IBL_LAMPS > 0
+  for (int lamp = 0; lamp < IBL_LAMPS; ++lamp)
+  {
+    vec4 cap = iblLampCaps[lamp];
+    density += dot(direction, cap.xyz) >= 1.0 - cap.w ? 1.0 / (2.0 * iblPi * cap.w) : 0.0;
+  }
+  density *= float(iblSamplesPerLamp()) / float(iblSamplesPerPixel);
+#endif
+  return density;
+}
+
+#if IBL_LAMPS > 0
+// Sample i of a lamp, evenly over its cap.
+vec3 iblLampDirection(int lamp, int i, uint shift)
+{
+  vec4 cap = iblLampCaps[lamp];
+  vec2 u = iblLatticePoint(uint(iblFirstSample / IBL_LAMPS + i), iblHash(shift + uint(lamp)));
+  float w = u.y * cap.w;
+  float sine = sqrt(w * (2.0 - w));
+  return iblTangentFrame(cap.xyz) * vec3(sine * cos(2.0 * iblPi * u.x), sine * sin(2.0 * iblPi * u.x), 1.0 - w);
+}
+#endif
+
+// Adds to `light` a sample of irradiance / pi.
+iblDiffuse iblAddDiffuse(iblDiffuse light, iblBoundary boundary, vec3 viewVC, vec3 L)
+{
+  float pdf = max(dot(boundary.normal, L), 0.0) / iblPi;
+  float density = pdf + iblLampDensity(L);
+  if (pdf > 0.0)
+  {
+    vec3 radiance = iblSampleRadiance(L, density) * (pdf / (density * float(iblSamplesPerPixel)));
+    float VoH = clamp(dot(viewVC, normalize(viewVC + L)), 0.0, 1.0);
+    light.irradiance += radiance;
+    light.refracted += radiance * (vec3(1.0) - iblF_Schlick(boundary.f0, boundary.f90, VoH));
+  }
+  return light;
 }
 
 iblDiffuse iblDiffuseLight(iblBoundary boundary, vec3 viewVC)
@@ -30,15 +88,39 @@ iblDiffuse iblDiffuseLight(iblBoundary boundary, vec3 viewVC)
   light.layers = vec3(0.0);
   for (int i = 0; i < iblSamplesPerPixel; ++i)
   {
-    vec2 u = iblLatticePoint(uint(i), shift);
+    vec2 u = iblLatticePoint(uint(iblFirstSample + i), shift);
     float sine = sqrt(u.y);
     vec3 L = viewFromTangent * vec3(sine * cos(2.0 * iblPi * u.x), sine * sin(2.0 * iblPi * u.x), sqrt(1.0 - u.y));
-    vec3 radiance = iblSampleRadiance(L, sqrt(1.0 - u.y) / iblPi) / float(iblSamplesPerPixel);
-    float VoH = clamp(dot(viewVC, normalize(viewVC + L)), 0.0, 1.0);
-    light.irradiance += radiance;
-    light.refracted += radiance * (vec3(1.0) - iblF_Schlick(boundary.f0, boundary.f90, VoH));
+    light = iblAddDiffuse(light, boundary, viewVC, L);
   }
+#if IBL_LAMPS > 0
+  for (int i = 0; i < iblSamplesPerLamp(); ++i)
+  {
+    for (int lamp = 0; lamp < IBL_LAMPS; ++lamp)
+    {
+      light = iblAddDiffuse(light, boundary, viewVC, iblLampDirection(lamp, i, shift));
+    }
+  }
+#endif
   return light;
+}
+
+// A sample of what is reflected, from L = directionVC at the half vector H; V, L and H in the tangent frame. visible: iblVisibleBound().
+vec3 iblReflectedSample(iblBoundary boundary, vec3 V, vec3 L, vec3 H, vec3 directionVC, vec2 alpha, vec2 visible)
+{
+  bool seen = L.z > 0.0;
+#ifdef IBL_HORIZON
+  seen = seen && dot(directionVC, boundary.geometricNormal) > 0.0;
+#endif
+  if (!seen)
+  {
+    return vec3(0.0);
+  }
+  float pdf = iblD_GGXAnisotropic(H, alpha) / (2.0 * visible.y);
+  float density = pdf + iblLampDensity(directionVC);
+  float weight = 2.0 * L.z * iblV_SmithGGXAnisotropic(V, L, alpha) * visible.y * (pdf / density);
+  vec3 fresnel = iblF_Schlick(boundary.f0, boundary.f90, clamp(dot(V, H), 0.0, 1.0));
+  return weight * fresnel * iblSampleRadiance(directionVC, density);
 }
 
 vec3 iblReflectedLight(iblBoundary boundary, vec3 viewVC, vec3 layers)
@@ -59,20 +141,20 @@ vec3 iblReflectedLight(iblBoundary boundary, vec3 viewVC, vec3 layers)
   vec3 sum = vec3(0.0);
   for (int i = 0; i < iblSamplesPerPixel; ++i)
   {
-    vec3 H = iblVisibleHalfVectorGGX(iblLatticePoint(uint(i), shift), V, alpha, visible.x);
-    float VoH = clamp(dot(V, H), 0.0, 1.0);
-    vec3 L = 2.0 * VoH * H - V;
-    vec3 directionVC = viewFromTangent * L;
-    bool seen = L.z > 0.0;
-#ifdef IBL_HORIZON
-    seen = seen && dot(directionVC, boundary.geometricNormal) > 0.0;
-#endif
-    if (seen)
+    vec3 H = iblVisibleHalfVectorGGX(iblLatticePoint(uint(iblFirstSample + i), shift), V, alpha, visible.x);
+    vec3 L = 2.0 * dot(V, H) * H - V;
+    sum += iblReflectedSample(boundary, V, L, H, viewFromTangent * L, alpha, visible);
+  }
+#if IBL_LAMPS > 0
+  for (int i = 0; i < iblSamplesPerLamp(); ++i)
+  {
+    for (int lamp = 0; lamp < IBL_LAMPS; ++lamp)
     {
-      float pdf = iblD_GGXAnisotropic(H, alpha) / (2.0 * visible.y);
-      float weight = 2.0 * L.z * iblV_SmithGGXAnisotropic(V, L, alpha) * visible.y;
-      sum += weight * iblF_Schlick(boundary.f0, boundary.f90, VoH) * iblSampleRadiance(directionVC, pdf);
+      vec3 directionVC = iblLampDirection(lamp, i, shift);
+      vec3 L = transpose(viewFromTangent) * directionVC;
+      sum += iblReflectedSample(boundary, V, L, normalize(V + L), directionVC, alpha, visible);
     }
   }
+#endif
   return sum / float(iblSamplesPerPixel);
 }

@@ -166,7 +166,8 @@ bool vtkIBLLighting::UpdateStages(vtkOpenGLRenderWindow* window, const vtkIBLSce
   {
     ready = this->CubeMap->Update(window) && ready;
   }
-  if (!sampled && (this->Needs.Irradiance || this->Needs.MaximumRoughness > 0.0))
+  // The sampled form takes from the chain where lamps are.
+  if ((!sampled || this->BrightTexels) && (this->Needs.Irradiance || this->Needs.MaximumRoughness > 0.0))
   {
     ready = this->SpecularChain->Update(window) && ready;
   }
@@ -299,7 +300,7 @@ vtkSmartPointer<vtkLight> vtkIBLLighting::CreateSunLight()
   return sun;
 }
 
-void vtkIBLLighting::SetShaderParameters(vtkShaderProgram* program, vtkRenderer* renderer)
+void vtkIBLLighting::SetShaderParameters(vtkShaderProgram* program, vtkRenderer* renderer, int firstSample)
 {
   // Layers are stored divided by a scale, the cube map as it is.
   const double stored = this->SamplesPerPixel > 0 ? 1.0 : this->SpecularChain->GetStoredScale();
@@ -308,6 +309,7 @@ void vtkIBLLighting::SetShaderParameters(vtkShaderProgram* program, vtkRenderer*
   {
     program->SetUniformi("iblRadiance", this->Bound->Radiance.GetUnit());
     program->SetUniformi("iblSamplesPerPixel", this->SamplesPerPixel);
+    program->SetUniformi("iblFirstSample", firstSample);
   }
   else
   {
@@ -317,8 +319,8 @@ void vtkIBLLighting::SetShaderParameters(vtkShaderProgram* program, vtkRenderer*
     program->SetUniformi("iblIrradiance", this->Bound->Irradiance.GetUnit());
     program->SetUniformf("iblLayers", float(this->SpecularChain->GetNumberOfLayers()));
     program->SetUniformf("iblStoredScale", float(stored));
-    this->SetLamps(program, renderer);
   }
+  this->SetLamps(program, renderer);
 
   float rows[9];
   this->GetEnvironmentFromView(renderer, rows);
@@ -342,14 +344,16 @@ void vtkIBLLighting::SetLamps(vtkShaderProgram* program, vtkRenderer* renderer)
   const glm::mat3 viewFromEnvironment = glm::inverse(glm::transpose(glm::make_mat3(rows)));
   float directions[IBL_MAXIMUM_LAMPS][4];
   float powers[IBL_MAXIMUM_LAMPS][3];
+  const bool sampled = this->SamplesPerPixel > 0;
   int count = 0;
-  for (int i = this->SunInEnvironment ? 0 : 1; i < this->SpecularChain->GetNumberOfLamps(); ++i, ++count)
+  for (int i = this->GetFirstLamp(); i < this->SpecularChain->GetNumberOfLamps(); ++i, ++count)
   {
     double direction[3];
     double power[3];
     const double variance = this->SpecularChain->GetLamp(i, direction, power);
     const glm::vec3 view = glm::normalize(viewFromEnvironment * glm::vec3(direction[0], direction[1], direction[2]));
-    directions[count][3] = float(GetAddedAlpha2(variance));
+    directions[count][3] =
+      float(sampled ? 1.0 - std::cos(this->SpecularChain->GetLampRadius(i)) : GetAddedAlpha2(variance));
     for (int k = 0; k < 3; ++k)
     {
       directions[count][k] = view[k];
@@ -358,14 +362,17 @@ void vtkIBLLighting::SetLamps(vtkShaderProgram* program, vtkRenderer* renderer)
   }
   if (count > 0)
   {
-    program->SetUniform4fv("iblLampDirections", count, directions);
-    program->SetUniform3fv("iblLampPowers", count, powers);
+    program->SetUniform4fv(sampled ? "iblLampCaps" : "iblLampDirections", count, directions);
+    if (!sampled)
+    {
+      program->SetUniform3fv("iblLampPowers", count, powers);
+    }
   }
 }
 
 std::string vtkIBLLighting::MakeShaderText() const
 {
-  const int lamps = this->SpecularChain->GetNumberOfLamps() - (this->SunInEnvironment ? 0 : 1);
+  const int lamps = this->SpecularChain->GetNumberOfLamps() - this->GetFirstLamp();
   std::string text = "#define IBL_LAMPS " + std::to_string(std::max(lamps, 0)) + "\n";
   const char* energy = this->ReflectionModel == Classic ? "IBL_CLASSIC"
     : this->EnergyCompensation                          ? "IBL_MULTIPLE_SCATTER"

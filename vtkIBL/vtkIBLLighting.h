@@ -138,7 +138,8 @@ public:
   /**
    * 0, the default: shade by prefiltered layers and the table, at a handful of texture reads a pixel. Above: estimate
    * the reflection integral itself with so many samples a pixel, read from the cube map: slow, and what the fast form
-   * is judged by; 1024 leave about 1 %. At most 65536. Takes effect with the next frame.
+   * is judged by; 1024 leave about 1 %. At most 65536. Takes effect with the next frame. vtkIBLRenderPass adds as many
+   * with every frame of a scene at rest.
    */
   vtkSetClampMacro(SamplesPerPixel, int, 0, 65536);
   vtkGetMacro(SamplesPerPixel, int);
@@ -156,11 +157,12 @@ public:
   ///@{
   /**
    * Between these two the textures are bound to units of their own, and SetShaderParameters() gives a program that
-   * contains GetShaderChunk() all it needs to shade what `renderer`'s camera sees.
+   * contains GetShaderChunk() all it needs to shade what `renderer`'s camera sees. `firstSample`, in [0, 65536): where
+   * in the sequence of a pixel's samples this frame goes on; it changes nothing where SamplesPerPixel is 0.
    */
   void Activate(vtkOpenGLRenderWindow* window);
   void Deactivate();
-  void SetShaderParameters(vtkShaderProgram* program, vtkRenderer* renderer);
+  void SetShaderParameters(vtkShaderProgram* program, vtkRenderer* renderer, int firstSample = 0);
   void SetLayerParameters(const vtkIBLGL::Program& program) const; // what vtkIBLLayers.glsl takes
   void SetLampParameters(const vtkIBLGL::Program& program, double perceptualRoughness) const; // and vtkIBLBackgroundFS
   ///@}
@@ -207,6 +209,7 @@ private:
   vtkNew<vtkIBLBRDFTable> BRDFTable;
   std::string MakeShaderText() const;
   void SetLamps(vtkShaderProgram* program, vtkRenderer* renderer);
+  int GetFirstLamp() const { return this->SunInEnvironment ? 0 : 1; }
   int ReflectionModel = Physical;
   bool EnergyCompensation = true;
   bool BrightTexels = true;

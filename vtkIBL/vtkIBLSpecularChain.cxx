@@ -211,6 +211,12 @@ double vtkIBLSpecularChain::GetLamp(int index, double direction[3], double power
   return lamp.Variance;
 }
 
+double vtkIBLSpecularChain::GetLampRadius(int index) const
+{
+  constexpr double texel = 0.0061; // of a cube map of 256^2
+  return this->Internal->Out.Lamps.at(index).Radius + 1.5 * texel;
+}
+
 const vtkIBLGL::Texture& vtkIBLSpecularChain::GetOddLayers() const
 {
   return this->Internal->Out.Odd;

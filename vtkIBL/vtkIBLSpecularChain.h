@@ -115,10 +115,12 @@ public:
   ///@{
   /**
    * What was left out, strongest first: unit direction in the environment's frame, and radiance times solid angle [sr];
-   * returns the variance of direction along either tangent [rad^2].
+   * returns the variance of direction along either tangent [rad^2]. All of it, and of what a cube map of 256^2 makes of
+   * it, lies within the radius [rad].
    */
   int GetNumberOfLamps() const;
   double GetLamp(int index, double direction[3], double power[3]) const;
+  double GetLampRadius(int index) const;
   ///@}
 
   ///@{
