@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIBLRenderPass.h"
 
-#include "vtkIBLBRDFTable.h"
+#include "vtkIBLAccumulation.h"
 #include "vtkIBLBackground.h"
+#include "vtkIBLBRDFTable.h"
+#include "vtkIBLCubeMap.h"
 #include "vtkIBLEnvironment.h"
 #include "vtkIBLGL.h"
 #include "vtkIBLLighting.h"
+#include "vtkIBLSpecularChain.h"
 
 #include "vtkCamera.h"
 #include "vtkFrameBufferObjectBase.h"
-#include "vtkFramebufferPass.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationObjectBaseVectorKey.h"
@@ -25,10 +27,10 @@
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
-#include "vtkTextureObject.h"
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkIBLRenderPass);
@@ -139,6 +141,10 @@ vtkIBLRenderPass::vtkIBLRenderPass()
   this->NoLight->SetLightTypeToHeadlight();
   this->NoLight->SetIntensity(0.0);
   this->Background->SetLighting(this->Lighting);
+  for (auto& accumulation : this->Accumulations)
+  {
+    accumulation = std::make_unique<vtkIBLAccumulation>();
+  }
 }
 
 vtkIBLRenderPass::~vtkIBLRenderPass() = default;
@@ -153,6 +159,7 @@ void vtkIBLRenderPass::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "TranslucentFresnel: " << this->TranslucentFresnel << "\n"
      << indent << "DirectOcclusion: " << this->DirectOcclusion << "\n"
      << indent << "DelegatePass: " << this->DelegatePass.Get() << "\n"
+     << indent << "AccumulatedSamples: " << this->AccumulatedSamples << "\n"
      << indent << "Lighting:\n";
   this->Lighting->PrintSelf(os, indent.GetNextIndent());
 }
@@ -278,7 +285,84 @@ void vtkIBLRenderPass::Render(const vtkRenderState* state)
   this->Renderer = nullptr;
 }
 
+bool vtkIBLRenderPass::Accumulates(const vtkRenderState* state) const
+{
+  vtkRenderer* renderer = state->GetRenderer();
+  if (state->GetFrameBuffer() || renderer->GetSelector() || !vtkIBLGL::FindMissingFeature().empty())
+  {
+    return false;
+  }
+  // What is drawn over somebody else's picture changes with that, unnoticed.
+  const bool startsClear = renderer->GetRenderWindow()->GetErase() && renderer->GetErase() &&
+    !renderer->GetPreserveColorBuffer() && !renderer->GetPreserveDepthBuffer();
+  return renderer == this->Capturing || (startsClear && this->Renderer && this->Lighting->GetSamplesPerPixel() > 0);
+}
+
+vtkIBLStamp vtkIBLRenderPass::GetStamp(const vtkRenderState* state)
+{
+  vtkIBLStamp stamp(state);
+  stamp.Add(this);
+  stamp.Add(this->DelegatePass);
+  stamp.Add(this->Lighting);
+  stamp.Add(this->Lighting->GetCubeMap()->GetBuildTime());
+  stamp.Add(this->Lighting->GetSpecularChain()->GetBuildTime());
+  stamp.Add(this->Lighting->GetBRDFTable()->GetBuildTime());
+  double numbers[12];
+  this->GetEnvironment()->GetRadianceScale(numbers);
+  this->GetEnvironment()->GetEnvironmentFromWorld(numbers + 3);
+  stamp.Add(numbers, 12);
+  return stamp;
+}
+
 void vtkIBLRenderPass::RenderScene(const vtkRenderState* state)
+{
+  const int samples = this->Renderer ? this->Lighting->GetSamplesPerPixel() : 0;
+  vtkIBLAccumulation& accumulation = *this->Accumulations[this->OutputEncoding];
+  if (state->GetRenderer()->GetSelector())
+  {
+    for (auto& other : this->Accumulations)
+    {
+      other->Selected();
+    }
+  }
+  else
+  {
+    this->AccumulatedSamples = samples;
+  }
+  if (!this->Accumulates(state))
+  {
+    this->DrawScene(state);
+    return;
+  }
+  try
+  {
+    if (samples == 0)
+    {
+      accumulation.Restart(); // a single frame, to capture
+    }
+    accumulation.Render(
+      state->GetRenderer(), std::max(samples, 1), this->OutputEncoding == Display,
+      [&] { return this->GetStamp(state); },
+      [&](int firstSample)
+      {
+        this->FirstSample = firstSample;
+        this->DrawScene(state);
+        this->FirstSample = 0;
+      });
+    this->AccumulatedSamples = samples > 0 ? accumulation.GetSamples() : 0;
+    if (state->GetRenderer() == this->Capturing)
+    {
+      accumulation.Read(this->Captured);
+    }
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    this->DrawScene(state);
+  }
+}
+
+void vtkIBLRenderPass::DrawScene(const vtkRenderState* state)
 {
   vtkRenderer* renderer = state->GetRenderer();
   const bool background = this->BackgroundVisible && this->Renderer;
@@ -330,6 +414,10 @@ void vtkIBLRenderPass::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Lighting->ReleaseGraphicsResources(window);
   this->Background->ReleaseGraphicsResources(window);
+  for (auto& accumulation : this->Accumulations)
+  {
+    accumulation->ReleaseGraphicsResources();
+  }
   if (this->DelegatePass)
   {
     this->DelegatePass->ReleaseGraphicsResources(window);
@@ -345,32 +433,27 @@ vtkSmartPointer<vtkImageData> vtkIBLRenderPass::CaptureRadiance(vtkRenderer* ren
     vtkErrorMacro("CaptureRadiance() takes a renderer in a window, whose pass is this one.");
     return nullptr;
   }
-  const int encoding = this->OutputEncoding;
-  vtkNew<vtkFramebufferPass> framebuffer;
-  framebuffer->SetColorFormat(vtkTextureObject::Float32);
-  // Depth is copied from there for translucent surfaces, and OpenGL copies between equal formats only.
-  framebuffer->SetDepthFormat(
-    window->GetDepthBufferSize() == 32 ? vtkTextureObject::Fixed32 : vtkTextureObject::Fixed24);
-  framebuffer->SetDelegatePass(this);
-  const vtkSmartPointer<vtkIBLRenderPass> alive = this; // SetPass() lets go
-  this->SetOutputEncoding(Linear);
-  renderer->SetPass(framebuffer);
-  window->Render();
-  window->MakeCurrent();
-
-  vtkTextureObject* texture = framebuffer->GetColorTexture();
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  if (texture->GetHandle())
+  // No Modified(): the scene that a display-encoded mean is of stays the same.
+  const int encoding = std::exchange(this->OutputEncoding, Linear);
+  if (encoding != Linear)
   {
-    image->SetDimensions(int(texture->GetWidth()), int(texture->GetHeight()), 1);
-    image->AllocateScalars(VTK_FLOAT, 4);
-    glGetTextureImage(texture->GetHandle(), 0, GL_RGBA, GL_FLOAT,
-      GLsizei(4 * sizeof(float) * image->GetNumberOfPoints()), image->GetScalarPointer());
+    this->ShaderTime.Modified();
   }
-  framebuffer->SetDelegatePass(nullptr); // its release would be ours, too
-  framebuffer->ReleaseGraphicsResources(window);
-  renderer->SetPass(this);
-  this->SetOutputEncoding(encoding);
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  this->Captured = image;
+  this->Capturing = renderer;
+  window->Render();
+  this->Capturing = nullptr;
+  this->Captured = nullptr;
+  if (this->AccumulatedSamples == 0)
+  {
+    this->Accumulations[Linear]->ReleaseGraphicsResources();
+  }
+  if (encoding != Linear)
+  {
+    this->OutputEncoding = encoding;
+    this->ShaderTime.Modified();
+  }
   return image;
 }
 
@@ -509,7 +592,7 @@ bool vtkIBLRenderPass::SetShaderParameters(
   }
   if (this->Renderer && program->IsUniformUsed("iblRadianceScale"))
   {
-    this->Lighting->SetShaderParameters(program, this->Renderer);
+    this->Lighting->SetShaderParameters(program, this->Renderer, this->FirstSample);
   }
   return true;
 }

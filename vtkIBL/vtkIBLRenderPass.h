@@ -26,6 +26,11 @@
  *
  * Leave vtkRenderer's UseImageBasedLighting off, or the actors get the environment twice.
  *
+ * With vtkIBLLighting's SamplesPerPixel above 0, a scene at rest converges: each further Render() of the window adds as
+ * many samples, and the picture is the mean of all. Nothing renders by itself; call Render() again to refine. Whatever
+ * changes the picture starts anew, as far as GetMTime() tells; else (uniforms that an observer sets, say) Modified() of
+ * this pass does. Renderers that draw over another's picture, and passes inside another pass, don't accumulate.
+ *
  * Needs OpenGL 4.5. Where there is less, one error says so, and the scene shows with VTK's own lights.
  */
 #ifndef vtkIBLRenderPass_h
@@ -36,9 +41,13 @@
 #include "vtkOpenGLRenderPass.h"
 #include "vtkSmartPointer.h"
 
+#include <memory> // For std::unique_ptr
+
+class vtkIBLAccumulation;
 class vtkIBLBackground;
 class vtkIBLEnvironment;
 class vtkIBLLighting;
+class vtkIBLStamp;
 class vtkImageData;
 class vtkLight;
 
@@ -134,8 +143,15 @@ public:
   ///@}
 
   /**
+   * Samples a pixel in the last picture, at most 65536: then frames add no more, and cost a copy. 0 when it was not
+   * sampled.
+   */
+  vtkGetMacro(AccumulatedSamples, int);
+
+  /**
    * Renders `renderer`'s window once, through a float framebuffer and with linear encoding, and returns what `renderer`
-   * shows: width x height x 1 float RGBA, row 0 at the bottom. `renderer`'s pass must be this one.
+   * shows: width x height x 1 float RGBA, row 0 at the bottom. `renderer`'s pass must be this one. When sampled, each
+   * call adds a frame to the mean of linear pictures, beside which the mean of display-encoded ones is left alone.
    */
   vtkSmartPointer<vtkImageData> CaptureRadiance(vtkRenderer* renderer);
 
@@ -162,6 +178,9 @@ private:
   void operator=(const vtkIBLRenderPass&) = delete;
 
   void RenderScene(const vtkRenderState* state);
+  void DrawScene(const vtkRenderState* state);
+  bool Accumulates(const vtkRenderState* state) const;
+  vtkIBLStamp GetStamp(const vtkRenderState* state);
 
   void SetShaderOption(bool& option, bool value);
 
@@ -175,9 +194,14 @@ private:
   bool LightNonPBR = false;
   bool TranslucentFresnel = false;
   bool DirectOcclusion = true;
-  bool Lit = false;                // there is light to add in this frame
-  vtkRenderer* Renderer = nullptr; // while Render runs
-  vtkTimeStamp ShaderTime;         // when the GLSL that the hooks write last changed
+  bool Lit = false;                                     // there is light to add in this frame
+  vtkRenderer* Renderer = nullptr;                      // while Render runs
+  vtkTimeStamp ShaderTime;                              // when the GLSL that the hooks write last changed
+  std::unique_ptr<vtkIBLAccumulation> Accumulations[2]; // by OutputEncoding
+  int AccumulatedSamples = 0;
+  int FirstSample = 0;                    // of this frame, in the mean
+  vtkRenderer* Capturing = nullptr;       // while CaptureRadiance() runs: of this renderer...
+  vtkSmartPointer<vtkImageData> Captured; // ... the picture
 };
 
 #endif
