@@ -105,6 +105,7 @@ Sample Scene::Render()
 {
   this->Window->MakeCurrent();
   glFinish();
+  this->Pass->Modified(); // a sampled frame is the first of its mean, not one more
   return Clock(
     [&]
     {
