@@ -121,6 +121,10 @@ vtkSmartPointer<vtkImageData> Scene::Capture()
   {
     this->GetLighting()->EnergyCompensationOff();
     vtkSmartPointer<vtkImageData> image = this->Pass->CaptureRadiance(this->Renderer);
+    while (this->Pass->GetAccumulatedSamples() < this->Engine.SamplesPerPixel)
+    {
+      image = this->Pass->CaptureRadiance(this->Renderer); // at most 8192 a frame
+    }
     this->GetLighting()->EnergyCompensationOn();
     return image;
   }

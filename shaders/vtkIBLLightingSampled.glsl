@@ -13,14 +13,6 @@ uniform vec4 iblLampCaps[IBL_LAMPS]; // middle, view space; 1 - cosine of the ra
 #include "vtkIBLSamplingFunctions.glsl"
 #include "vtkIBLBRDFFunctions.glsl"
 
-// The environment from `direction` [view space], at the mip level that one of so many samples of that density stands for: with those of
-// the frames before, so that the mean converges to the integral over the light, not over a blurred one.
-vec3 iblSampleRadiance(vec3 direction, float pdf)
-{
-  float level = iblFilteredLod(pdf, float(iblFirstSample + iblSamplesPerPixel), float(textureSize(iblRadiance, 0).x));
-  return textureLod(iblRadiance, iblEnvironmentFromView * direction, max(level, 0.0)).rgb;
-}
-
 uint iblPixelShift()
 {
   return iblHash(uint(gl_FragCoord.x) + iblHash(uint(gl_FragCoord.y)));
@@ -62,6 +54,24 @@ vec3 iblLampDirection(int lamp, int i, uint shift)
   return iblTangentFrame(cap.xyz) * vec3(sine * cos(2.0 * iblPi * u.x), sine * sin(2.0 * iblPi * u.x), 1.0 - w);
 }
 #endif
+
+// The environment from `direction` [view space], at the mip level that one of so many samples of that density stands for: with those of
+// the frames before, so that the mean converges to the integral over the light, not over a blurred one. Beside a lamp no level reaches
+// into it (1.5 texels), since what lies outside its cap is counted in full.
+vec3 iblSampleRadiance(vec3 direction, float pdf)
+{
+  float faceSize = float(textureSize(iblRadiance, 0).x);
+  float level = iblFilteredLod(pdf, float(iblFirstSample + iblSamplesPerPixel), faceSize);
+#if IBL_LAMPS > 0
+  float nearest = 2.0;
+  for (int lamp = 0; lamp < IBL_LAMPS; ++lamp)
+  {
+    nearest = min(nearest, length(direction - iblLampCaps[lamp].xyz) - sqrt(2.0 * iblLampCaps[lamp].w));
+  }
+  level = min(level, log2(max(nearest * faceSize / 3.0, 1.0))); // a texel is 2 / n wide in the middle of a face
+#endif
+  return textureLod(iblRadiance, iblEnvironmentFromView * direction, max(level, 0.0)).rgb;
+}
 
 // Adds to `light` a sample of irradiance / pi.
 iblDiffuse iblAddDiffuse(iblDiffuse light, iblBoundary boundary, vec3 viewVC, vec3 L)

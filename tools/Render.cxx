@@ -154,9 +154,9 @@ void AddMaterialAndLight(CLI::App* command, RenderOptions& options)
     ->type_name("HOW");
   command
     ->add_option("--sampled", options.Samples,
-      "Shade with N samples a pixel of the reflection integral, in [1, 65536], instead of\n"
+      "Shade with N samples a pixel of the reflection integral, in [1, 8192], instead of\n"
       "prefiltered light: slow and right")
-    ->check(tool::InRange(1, 65536))
+    ->check(tool::InRange(1, 8192))
     ->type_name("N");
 }
 }

@@ -192,8 +192,8 @@ void AddMaterial(CLI::App* command, SphereOptions& options)
       "default fitted")
     ->check(CLI::IsMember({ "fast", "fitted", "sampled" }))
     ->type_name("HOW");
-  command->add_option("--samples", options.Samples, "Samples a pixel of 'sampled', in [1, 65536]; default 1024")
-    ->check(tool::InRange(1, 65536))
+  command->add_option("--samples", options.Samples, "Samples a pixel of 'sampled', in [1, 8192]; default 1024")
+    ->check(tool::InRange(1, 8192))
     ->type_name("N");
   command
     ->add_option("--compensation", options.Compensation,

@@ -45,7 +45,7 @@ private:
 class vtkIBLAccumulation
 {
 public:
-  static constexpr int MaximumSamples = 65536; // a pixel, as in a single frame (vtkIBLLighting)
+  static constexpr int MaximumSamples = 65536; // a pixel
 
   /// A pixel, in the mean.
   int GetSamples() const { return this->Samples; }

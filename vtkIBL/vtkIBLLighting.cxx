@@ -166,8 +166,8 @@ bool vtkIBLLighting::UpdateStages(vtkOpenGLRenderWindow* window, const vtkIBLSce
   {
     ready = this->CubeMap->Update(window) && ready;
   }
-  // The sampled form takes from the chain where lamps are.
-  if ((!sampled || this->BrightTexels) && (this->Needs.Irradiance || this->Needs.MaximumRoughness > 0.0))
+  // Sampled or not: a blurred background reads layers, and samples go to lamps.
+  if (this->Needs.Irradiance || this->Needs.MaximumRoughness > 0.0)
   {
     ready = this->SpecularChain->Update(window) && ready;
   }
@@ -360,7 +360,7 @@ void vtkIBLLighting::SetLamps(vtkShaderProgram* program, vtkRenderer* renderer)
       powers[count][k] = float(power[k] / this->SpecularChain->GetStoredScale());
     }
   }
-  if (count > 0)
+  if (count > 0 && this->BrightTexels)
   {
     program->SetUniform4fv(sampled ? "iblLampCaps" : "iblLampDirections", count, directions);
     if (!sampled)
@@ -372,7 +372,7 @@ void vtkIBLLighting::SetLamps(vtkShaderProgram* program, vtkRenderer* renderer)
 
 std::string vtkIBLLighting::MakeShaderText() const
 {
-  const int lamps = this->SpecularChain->GetNumberOfLamps() - this->GetFirstLamp();
+  const int lamps = this->BrightTexels ? this->SpecularChain->GetNumberOfLamps() - this->GetFirstLamp() : 0;
   std::string text = "#define IBL_LAMPS " + std::to_string(std::max(lamps, 0)) + "\n";
   const char* energy = this->ReflectionModel == Classic ? "IBL_CLASSIC"
     : this->EnergyCompensation                          ? "IBL_MULTIPLE_SCATTER"

@@ -549,8 +549,7 @@ bool vtkIBLRenderPass::PostReplaceShaderValues(
       Replace(fragmentShader, bumped, "  vec3 iblGeometricNormal = normalVCVSOutput;\n" + bumped);
     // VTK's own D is 0/0 at roughness 0 where H = N, even for a light of intensity 0.
     const std::string direct = "  color += Lo;\n";
-    Replace(fragmentShader, direct,
-      "#ifdef IBL_MIRROR\n  Lo = mix(Lo, vec3(0.0), isnan(Lo));\n#endif\n" + direct);
+    Replace(fragmentShader, direct, "#ifdef IBL_MIRROR\n  Lo = mix(Lo, vec3(0.0), isnan(Lo));\n#endif\n" + direct);
     if (!this->DirectOcclusion)
     {
       Replace(fragmentShader, "  color = mix(color, color * ao, aoStrengthUniform);\n", "");

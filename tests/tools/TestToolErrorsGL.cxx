@@ -68,7 +68,7 @@ TEST_F(TestToolErrorsGL, WrongUsageIsStatusTwo)
   this->ExpectFailure(2, "R,G,B", render + "out.png --color 1,0");
   this->ExpectFailure(2, "R,G,B", render + "out.png --color 1,0,x");
   this->ExpectFailure(2, "[0, 1]", render + "out.png --metallic nan");
-  this->ExpectFailure(2, "[1, 65536]", render + "out.png --sampled 0");
+  this->ExpectFailure(2, "[1, 8192]", render + "out.png --sampled 0");
   this->ExpectFailure(2, "{show,hide,blur}", render + "out.png --background red");
 }
 

@@ -292,13 +292,13 @@ TEST_F(TestAccumulationGL, SelectionIsNoFrame)
 TEST_F(TestAccumulationGL, EndsAtTheMost)
 {
   this->Window->SetSize(8, 8);
-  this->SetSamples(20000);
-  EXPECT_EQ(this->Render(3), 60000);
+  this->SetSamples(7000);
+  EXPECT_EQ(this->Render(9), 63000);
   const std::vector<unsigned char> picture = GetPicture(this->Window);
   EXPECT_EQ(this->GetPictureAfter(2), picture);
-  EXPECT_EQ(this->Pass->GetAccumulatedSamples(), 60000);
+  EXPECT_EQ(this->Pass->GetAccumulatedSamples(), 63000);
   this->Actor->GetProperty()->SetRoughness(0.6);
-  EXPECT_EQ(this->Render(), 20000);
+  EXPECT_EQ(this->Render(), 7000);
 }
 
 // Captures add to a mean of their own, and the window's goes on. Mutant: one mean for both.
