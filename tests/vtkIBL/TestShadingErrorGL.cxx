@@ -18,7 +18,8 @@ constexpr Vec3 View = { 0, 0, 1 };
 struct Errors
 {
   double SplitSum = 0;
-  double Fast = 0;
+  double Layers = 0;  // all light in layers
+  double Lamps = 0;   // lamps as lights
   double Sampled = 0; // 1024 samples a pixel
 };
 }
@@ -54,6 +55,12 @@ protected:
   }
 
 private:
+  void Turn(const Vec3& n)
+  {
+    this->Actor->SetOrientation(
+      0, vtkMath::DegreesFromRadians(std::acos(n.z)), vtkMath::DegreesFromRadians(std::atan2(n.y, n.x)));
+  }
+
   Errors Judge(const reference::Environment& environment, double roughness, double f0)
   {
     const std::string key = "shading " + std::to_string(roughness) + reference::KeyOf(this->Normals);
@@ -79,41 +86,50 @@ private:
 
     Errors errors;
     double total = 0;
+    this->Pass->GetLighting()->SetSamplesPerPixel(0);
+    this->Pass->GetLighting()->BrightTexelsOff();
+    for (std::size_t i = 0; i < this->Normals.size(); ++i)
+    {
+      this->Turn(this->Normals[i]);
+      const RGB layers = this->Capture();
+      const RGB exact = truth[i].Combine({ f0, f0, f0 }, { 1, 1, 1 }, { 0, 0, 0 });
+      for (int k = 0; k < 3; ++k)
+      {
+        errors.Layers += std::abs(layers[k] - exact[k]);
+      }
+    }
+    this->Pass->GetLighting()->BrightTexelsOn();
     for (std::size_t i = 0; i < this->Normals.size(); ++i)
     {
       const Vec3& n = this->Normals[i];
-      this->Actor->SetOrientation(
-        0, vtkMath::DegreesFromRadians(std::acos(n.z)), vtkMath::DegreesFromRadians(std::atan2(n.y, n.x)));
+      this->Turn(n);
       this->Pass->GetLighting()->SetSamplesPerPixel(0);
-      const RGB fast = this->Capture();
+      const RGB lamps = this->Capture();
       this->Pass->GetLighting()->SetSamplesPerPixel(1024);
       const RGB sampled = this->Capture();
       const RGB exact = truth[i].Combine({ f0, f0, f0 }, { 1, 1, 1 }, { 0, 0, 0 });
       for (int k = 0; k < 3; ++k)
       {
         errors.SplitSum += std::abs(prefiltered[i][k] * (f0 * sums[i].A + sums[i].B) - exact[k]);
-        errors.Fast += std::abs(fast[k] - exact[k]);
+        errors.Lamps += std::abs(lamps[k] - exact[k]);
         errors.Sampled += std::abs(sampled[k] - exact[k]);
         total += exact[k];
       }
     }
-    return { errors.SplitSum / total, errors.Fast / total, errors.Sampled / total };
+    return { errors.SplitSum / total, errors.Layers / total, errors.Lamps / total, errors.Sampled / total };
   }
 
   std::vector<Vec3> Normals;
 };
 
-// Two maps, one of soft light and one of lamps. Fast shading is no further off than the split sum by quadrature and the
-// 2 % that layers may be off (0.8 % measured); the mean by f0 is what it is today, 35.1 and 41.9 %, and 1 % for
-// interpolation by other drivers. Sampling leaves 1.5 % on soft light, and 9 % of noise where lamps are: half as much
-// again. Mutants: N for R; A and B exchanged; the layers' roughness squared once more; 1 - NoV in the table; a sample's
-// weight off by a tenth.
-TEST_F(TestShadingErrorGL, IsWhatTheSplitSumMakesIt)
+// Two maps, one of soft light and one of lamps, by f0: with lamps in the layers the mean error is a third of the split
+// sum's by quadrature, with lamps as lights an eighth, and 1024 samples leave less. Bounds are measured figures (of
+// the split sum 35 and 42 %) and a tenth for other drivers. Mutants: N for R; A and B exchanged; the layers' roughness
+// squared once more; 1 - NoV in the table; the two lobes exchanged; no diffuse share; a sample's weight off by a tenth.
+TEST_F(TestShadingErrorGL, IsAFractionOfTheSplitSums)
 {
-  const std::pair<const char*, double> maps[] = { { "courtyard", 0.022 }, { "night", 0.14 } };
-  const double largestMean[] = { 0.361, 0.429 };
-  double mean[2] = {};
-  for (const auto& [map, largestSampled] : maps)
+  double mean[2][4] = {};
+  for (const char* map : { "courtyard", "night" })
   {
     const std::string path = GetHDRI(map);
     if (path.empty())
@@ -124,17 +140,23 @@ TEST_F(TestShadingErrorGL, IsWhatTheSplitSumMakesIt)
     ASSERT_TRUE(this->Environment->Update());
     for (int k = 0; k < 2; ++k)
     {
-      const std::vector<Errors> errors = this->Judge(F0s[k]);
-      for (std::size_t i = 0; i < errors.size(); ++i)
+      for (const Errors& errors : this->Judge(F0s[k]))
       {
-        EXPECT_LT(errors[i].Fast, errors[i].SplitSum + 0.02) << map << " f0 " << F0s[k] << " " << Roughnesses[i];
-        EXPECT_LT(errors[i].Sampled, largestSampled) << map << " f0 " << F0s[k] << " " << Roughnesses[i];
-        mean[k] += errors[i].Fast / double(2 * errors.size());
+        mean[k][0] += errors.SplitSum / double(2 * Roughnesses.size());
+        mean[k][1] += errors.Layers / double(2 * Roughnesses.size());
+        mean[k][2] += errors.Lamps / double(2 * Roughnesses.size());
+        mean[k][3] += errors.Sampled / double(2 * Roughnesses.size());
       }
     }
   }
+  const double largest[2][3] = { { 0.109, 0.064, 0.042 }, { 0.174, 0.072, 0.054 } };
   for (int k = 0; k < 2; ++k)
   {
-    EXPECT_LT(mean[k], largestMean[k]) << "f0 " << F0s[k];
+    std::printf("f0 %.2f: split sum %.4f, layers %.4f, lamps %.4f, sampled %.4f\n", F0s[k], mean[k][0], mean[k][1],
+      mean[k][2], mean[k][3]);
+    for (int i = 0; i < 3; ++i)
+    {
+      EXPECT_LT(mean[k][i + 1], largest[k][i]) << "f0 " << F0s[k] << " " << i;
+    }
   }
 }
