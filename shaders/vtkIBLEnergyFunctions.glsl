@@ -51,6 +51,13 @@ float iblDielectricShare(float f0, float f90, vec2 ab)
   return clamp((f90 - f0) * dielectric / max((1.0 - dielectricF0) * (f0 * ab.x + f90 * ab.y), 1e-6), 0.0, 1.0);
 }
 
+// Alpha of the isotropic lobes that IBL_ANISOTROPIC_LOBES of stand for an anisotropic one: that of its narrow side, but wide enough
+// that they run into each other.
+float iblNarrowAlpha(vec2 alpha)
+{
+  return max(min(alpha.x, alpha.y), 0.2 * max(alpha.x, alpha.y));
+}
+
 // Share of even light that Schlick's term keeps from a matt base, for f0 = 0 and f90 = 1: 1/pi Integral (1 - VoH)^5 NoL dL, to 1e-5
 // of 1 (a polynomial of degree 4, fitted).
 float iblDiffuseFresnel(float NoV)

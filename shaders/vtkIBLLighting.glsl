@@ -78,9 +78,8 @@ vec3 iblReflectedLamps(iblBoundary boundary, vec3 viewVC)
 vec3 iblAnisotropicRadiance(iblBoundary boundary, vec3 viewVC, vec2 lobe)
 {
   bool wideTangent = boundary.alpha.x > boundary.alpha.y;
-  float narrow = min(boundary.alpha.x, boundary.alpha.y);
   float wide = max(boundary.alpha.x, boundary.alpha.y);
-  vec3 along = (wideTangent ? boundary.tangent : boundary.bitangent) * (wide - narrow);
+  vec3 along = (wideTangent ? boundary.tangent : boundary.bitangent) * (wide - iblNarrowAlpha(boundary.alpha));
   mat3 tangentFromView = transpose(mat3(boundary.tangent, boundary.bitangent, boundary.normal));
   vec3 V = vec3((tangentFromView * viewVC).xy, boundary.NoV);
   float layer = iblLayerFromPosition(lobe.y, iblLayers);

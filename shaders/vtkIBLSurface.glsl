@@ -153,7 +153,7 @@ iblOutgoing iblEnvironmentLight(iblMaterial material, vec3 positionVC)
   surface.bitangent = material.bitangent;
   surface.alpha = material.alpha;
   // It will be put together from lobes of its narrow side.
-  float narrow = sqrt(min(material.alpha.x, material.alpha.y));
+  float narrow = sqrt(iblNarrowAlpha(material.alpha));
   surface.reflection.zw = iblReadTable(surface.NoV, narrow, 0.0).zw;
   surface.lobes = iblReadTable(surface.NoV, narrow, 1.0);
 #endif
