@@ -4,8 +4,12 @@
 // Whoever includes this says what it needs, as text costs time even where it isn't taken:
 //   IBL_ENERGY       IBL_SINGLE_SCATTER, IBL_MULTIPLE_SCATTER, IBL_CLASSIC
 //   IBL_METAL, IBL_DIELECTRIC: the surface is known to be all of that
-//   IBL_ANISOTROPY, IBL_COAT, IBL_HORIZON, IBL_OCCLUSION, IBL_SPECULAR_OCCLUSION: defined or not
+//   IBL_ANISOTROPY, IBL_COAT, IBL_OCCLUSION, IBL_SPECULAR_OCCLUSION: defined or not
+//   IBL_BUMPED, IBL_HORIZON_OCCLUSION: the normal is bumped, and reflections end at the unbumped surface's horizon
 // and defines iblDiffuseLight() and iblReflectedLight(), declared below.
+#if defined(IBL_BUMPED) && defined(IBL_HORIZON_OCCLUSION)
+#define IBL_HORIZON
+#endif
 #define IBL_SINGLE_SCATTER 0
 #define IBL_MULTIPLE_SCATTER 1
 #define IBL_CLASSIC 2

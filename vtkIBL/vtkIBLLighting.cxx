@@ -384,6 +384,7 @@ std::string vtkIBLLighting::MakeShaderText() const
   define(!this->Needs.Metal, "IBL_DIELECTRIC");
   define(!this->Needs.Dielectric && this->Needs.Metal, "IBL_METAL");
   define(this->SpecularOcclusion, "IBL_SPECULAR_OCCLUSION");
+  define(this->HorizonOcclusion, "IBL_HORIZON_OCCLUSION");
   return text + vtkIBLAssembleChunk(this->SamplesPerPixel > 0 ? "vtkIBLLightingSampled.glsl" : "vtkIBLLighting.glsl");
 }
 

@@ -472,7 +472,7 @@ bool Contains(const std::string& shader, const char* what)
 
 // iblMaterial out of the variables that VTK's PBR shader has by then, in every version from 9.1 to 9.7; and which of
 // them it has.
-std::string MakePBRMaterial(const std::string& shader, bool horizon, std::vector<std::string>& features)
+std::string MakePBRMaterial(const std::string& shader, bool bumped, std::vector<std::string>& features)
 {
   std::string material = "  iblMaterial iblSurface;\n"
                          "  iblSurface.normal = N;\n"
@@ -486,10 +486,10 @@ std::string MakePBRMaterial(const std::string& shader, bool horizon, std::vector
     features.push_back("IBL_OCCLUSION");
     material += "  iblSurface.occlusion = mix(1.0, ao, aoStrengthUniform);\n";
   }
-  if (horizon)
+  if (bumped)
   {
-    features.push_back("IBL_HORIZON");
-    material += "  iblSurface.geometricNormal = iblGeometricNormal;\n";
+    features.push_back("IBL_BUMPED");
+    material += "#ifdef IBL_HORIZON\n  iblSurface.geometricNormal = iblGeometricNormal;\n#endif\n";
   }
   if (Contains(shader, "  float at = "))
   {
@@ -544,9 +544,8 @@ bool vtkIBLRenderPass::PostReplaceShaderValues(
   // Unlit shaders have none of these lines and need none.
   if (Contains(fragmentShader, emission.c_str()))
   {
-    const std::string bumped = "  vec3 normalTS = ";
-    const bool horizon = this->Lighting->GetHorizonOcclusion() &&
-      Replace(fragmentShader, bumped, "  vec3 iblGeometricNormal = normalVCVSOutput;\n" + bumped);
+    const std::string bump = "  vec3 normalTS = ";
+    const bool bumped = Replace(fragmentShader, bump, "  vec3 iblGeometricNormal = normalVCVSOutput;\n" + bump);
     // VTK's own D is 0/0 at roughness 0 where H = N, even for a light of intensity 0.
     const std::string direct = "  color += Lo;\n";
     Replace(fragmentShader, direct, "#ifdef IBL_MIRROR\n  Lo = mix(Lo, vec3(0.0), isnan(Lo));\n#endif\n" + direct);
@@ -554,7 +553,7 @@ bool vtkIBLRenderPass::PostReplaceShaderValues(
     {
       Replace(fragmentShader, "  color = mix(color, color * ao, aoStrengthUniform);\n", "");
     }
-    Replace(fragmentShader, emission, emission + MakePBRMaterial(fragmentShader, horizon, features) + evaluate + add);
+    Replace(fragmentShader, emission, emission + MakePBRMaterial(fragmentShader, bumped, features) + evaluate + add);
     if (this->OutputEncoding == Linear)
     {
       Replace(fragmentShader, "color = pow(color, vec3(1.0/2.2));", "");

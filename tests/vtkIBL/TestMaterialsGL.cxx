@@ -240,6 +240,13 @@ TEST_F(TestMaterialsGL, ReflectionsEndAtTheHorizon)
     EXPECT_NEAR(this->Capture()[1], 1.0, 1e-2) << NoV;
     this->Lighting()->HorizonOcclusionOn();
   }
+  // The next frame follows the switch, with nothing else changed. Mutant: the text's time not bumped.
+  this->Renderer->SetPass(this->Pass);
+  this->Window->Render();
+  const int dark = this->GetCentre()[1];
+  this->Lighting()->HorizonOcclusionOff();
+  this->Window->Render();
+  EXPECT_GT(this->GetCentre()[1], dark + 5);
   EXPECT_LT(faded, 0.9);
 }
 
