@@ -240,14 +240,12 @@ bool vtkIBLAccumulation::Allocate(vtkOpenGLRenderWindow* window, const std::arra
 {
   GLint multisamples = 0;
   glGetIntegerv(GL_SAMPLES, &multisamples);
-  if (this->Mean && window == this->Window && window->GetContextCreationTime() == this->ContextTime &&
-    multisamples == this->Multisamples && region == this->Region)
+  if (this->Mean.IsIn(window) && multisamples == this->Multisamples && region == this->Region)
   {
     return false;
   }
   this->ReleaseGraphicsResources();
   this->Window = window;
-  this->ContextTime = window->GetContextCreationTime();
   this->Multisamples = multisamples;
   this->Region = region;
   const int width = region[0] + region[2];
@@ -288,17 +286,7 @@ void vtkIBLAccumulation::Show(vtkOpenGLRenderWindow* window, float weight, bool 
   this->Program.Set("decodingExponent", encoded ? 2.2f : 1.0f);
 
   vtkOpenGLState* state = window->GetState();
-  vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
-  vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
-  vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
-  vtkOpenGLState::ScopedglDepthMask depthMask(state);
-  vtkOpenGLState::ScopedglDepthFunc depthFunction(state);
   vtkOpenGLState::ScopedglColorMask colorMask(state);
-  state->vtkglEnable(GL_DEPTH_TEST);
-  state->vtkglDisable(GL_BLEND);
-  state->vtkglDisable(GL_CULL_FACE);
-  state->vtkglDepthMask(GL_TRUE);
-  state->vtkglDepthFunc(GL_ALWAYS);
   state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   // As the camera leaves them, for whoever draws next.
   const auto [x, y, width, height] = this->Region;
@@ -306,10 +294,7 @@ void vtkIBLAccumulation::Show(vtkOpenGLRenderWindow* window, float weight, bool 
   state->vtkglEnable(GL_SCISSOR_TEST);
   state->vtkglScissor(x, y, width, height);
 
-  ActiveProgram active(window, this->Program);
-  glBindVertexArray(this->NoVertices.Id());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  glBindVertexArray(0);
+  DrawScreen(window, this->Program, this->NoVertices, GL_TRUE, GL_ALWAYS);
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
   CheckErrors("drawing the mean of frames");
 }

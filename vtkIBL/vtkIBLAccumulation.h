@@ -76,7 +76,6 @@ private:
   bool WasSelected = false;
   std::array<int, 4> Region{}; // x, y, width, height in the framebuffer
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
-  vtkMTimeType ContextTime = 0;
   // As the window's own, so that all that draws finds its viewport in place and depth in the format that it copies.
   vtkNew<vtkOpenGLFramebufferObject> Frame;
   int Multisamples = 0;

@@ -83,28 +83,13 @@ int vtkIBLBackground::RenderOpaqueGeometry(vtkViewport* viewport)
     gl.Program.Set("viewShift", shift);
     glm::mat3 environmentFromView;
     this->Lighting->GetEnvironmentFromView(renderer, &environmentFromView[0].x);
-    gl.Program.Set("environmentFromView", glm::transpose(environmentFromView)); // rows came
+    gl.Program.Set("environmentFromView", environmentFromView);
     double rgb[3];
     this->Lighting->GetEnvironment()->GetRadianceScale(rgb);
     gl.Program.Set("radianceScale", glm::vec3(rgb[0], rgb[1], rgb[2]));
     gl.Program.Set("encodingExponent", this->DisplayEncoding ? 1.0f / 2.2f : 1.0f);
 
-    vtkOpenGLState* state = window->GetState();
-    vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
-    vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
-    vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
-    vtkOpenGLState::ScopedglDepthMask depthMask(state);
-    vtkOpenGLState::ScopedglDepthFunc depthFunction(state);
-    state->vtkglEnable(GL_DEPTH_TEST);
-    state->vtkglDisable(GL_BLEND);
-    state->vtkglDisable(GL_CULL_FACE);
-    state->vtkglDepthMask(GL_FALSE);
-    state->vtkglDepthFunc(GL_LEQUAL);
-
-    ActiveProgram active(window, gl.Program);
-    glBindVertexArray(gl.NoVertices.Id());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glBindVertexArray(0);
+    DrawScreen(window, gl.Program, gl.NoVertices, GL_FALSE, GL_LEQUAL);
     CheckErrors("drawing the background");
   }
   catch (const std::exception& error)

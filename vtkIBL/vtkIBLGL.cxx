@@ -328,6 +328,26 @@ BoundImage::~BoundImage()
   glBindImageTexture(this->Binding, 0, 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA32F);
 }
 
+void DrawScreen(vtkOpenGLRenderWindow* window, const Program& program, const VertexArray& noVertices,
+  GLboolean depthMask, GLenum depthFunction)
+{
+  vtkOpenGLState* state = window->GetState();
+  const vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
+  const vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
+  const vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
+  const vtkOpenGLState::ScopedglDepthMask oldDepthMask(state);
+  const vtkOpenGLState::ScopedglDepthFunc oldDepthFunction(state);
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->vtkglDisable(GL_BLEND);
+  state->vtkglDisable(GL_CULL_FACE);
+  state->vtkglDepthMask(depthMask);
+  state->vtkglDepthFunc(depthFunction);
+  const ActiveProgram active(window, program);
+  glBindVertexArray(noVertices.Id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
+}
+
 void DispatchTiles(int size, int layers)
 {
   const auto tiles = GLuint((size + IBL_TILE - 1) / IBL_TILE);

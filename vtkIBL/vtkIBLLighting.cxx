@@ -172,12 +172,7 @@ bool vtkIBLLighting::UpdateStages(vtkOpenGLRenderWindow* window, const vtkIBLSce
     ready = this->SpecularChain->Update(window) && ready;
   }
   environment->KeepLight();
-  const std::string text = this->MakeShaderText();
-  if (text != this->ShaderText)
-  {
-    this->ShaderText = text;
-    this->ShaderTime.Modified();
-  }
+  this->UpdateShaderText();
   return ready;
 }
 
@@ -199,7 +194,7 @@ void vtkIBLLighting::Deactivate()
   this->Bound = nullptr;
 }
 
-void vtkIBLLighting::GetEnvironmentFromView(vtkRenderer* renderer, float rows[9])
+void vtkIBLLighting::GetEnvironmentFromView(vtkRenderer* renderer, float columns[9])
 {
   double environmentFromWorld[3][3];
   this->GetEnvironment()->GetEnvironmentFromWorld(&environmentFromWorld[0][0]);
@@ -219,7 +214,7 @@ void vtkIBLLighting::GetEnvironmentFromView(vtkRenderer* renderer, float rows[9]
   vtkMath::Multiply3x3(environmentFromWorld, worldFromView, linear);
   for (int i = 0; i < 9; ++i)
   {
-    rows[i] = static_cast<float>(linear[i / 3][i % 3]);
+    columns[i] = static_cast<float>(linear[i % 3][i / 3]);
   }
 }
 
@@ -305,31 +300,28 @@ void vtkIBLLighting::SetShaderParameters(vtkShaderProgram* program, vtkRenderer*
   // Layers are stored divided by a scale, the cube map as it is.
   const double stored = this->SamplesPerPixel > 0 ? 1.0 : this->SpecularChain->GetStoredScale();
   program->SetUniformi("iblBRDFTable", this->Bound->Table.GetUnit());
+  program->SetUniformi("iblRadiance", this->Bound->Radiance.GetUnit());
   if (this->SamplesPerPixel > 0)
   {
-    program->SetUniformi("iblRadiance", this->Bound->Radiance.GetUnit());
     program->SetUniformi("iblSamplesPerPixel", this->SamplesPerPixel);
     program->SetUniformi("iblFirstSample", firstSample);
   }
   else
   {
-    program->SetUniformi("iblRadiance", this->Bound->Radiance.GetUnit());
     program->SetUniformi("iblOddLayers", this->Bound->OddLayers.GetUnit());
     program->SetUniformi("iblEvenLayers", this->Bound->EvenLayers.GetUnit());
     program->SetUniformi("iblIrradiance", this->Bound->Irradiance.GetUnit());
     program->SetUniformf("iblLayers", float(this->SpecularChain->GetNumberOfLayers()));
     program->SetUniformf("iblStoredScale", float(stored));
   }
-  this->SetLamps(program, renderer);
 
-  float rows[9];
-  this->GetEnvironmentFromView(renderer, rows);
-  float columns[9];
-  for (int i = 0; i < 9; ++i)
+  float environmentFromView[9];
+  this->GetEnvironmentFromView(renderer, environmentFromView);
+  program->SetUniformMatrix3x3("iblEnvironmentFromView", environmentFromView);
+  if (this->BrightTexels)
   {
-    columns[3 * (i % 3) + i / 3] = rows[i];
+    this->SetLamps(program, environmentFromView);
   }
-  program->SetUniformMatrix3x3("iblEnvironmentFromView", columns);
   double rgb[3];
   this->GetEnvironment()->GetRadianceScale(rgb);
   const float scale[3] = { float(rgb[0] * stored), float(rgb[1] * stored), float(rgb[2] * stored) };
@@ -337,11 +329,9 @@ void vtkIBLLighting::SetShaderParameters(vtkShaderProgram* program, vtkRenderer*
   program->SetUniformi("iblParallelProjection", renderer->GetActiveCamera()->GetParallelProjection());
 }
 
-void vtkIBLLighting::SetLamps(vtkShaderProgram* program, vtkRenderer* renderer)
+void vtkIBLLighting::SetLamps(vtkShaderProgram* program, const float environmentFromView[9])
 {
-  float rows[9];
-  this->GetEnvironmentFromView(renderer, rows);
-  const glm::mat3 viewFromEnvironment = glm::inverse(glm::transpose(glm::make_mat3(rows)));
+  const glm::mat3 viewFromEnvironment = glm::inverse(glm::make_mat3(environmentFromView));
   float directions[IBL_MAXIMUM_LAMPS][4];
   float powers[IBL_MAXIMUM_LAMPS][3];
   const bool sampled = this->SamplesPerPixel > 0;
@@ -360,7 +350,7 @@ void vtkIBLLighting::SetLamps(vtkShaderProgram* program, vtkRenderer* renderer)
       powers[count][k] = float(power[k] / this->SpecularChain->GetStoredScale());
     }
   }
-  if (count > 0 && this->BrightTexels)
+  if (count > 0)
   {
     program->SetUniform4fv(sampled ? "iblLampCaps" : "iblLampDirections", count, directions);
     if (!sampled)
@@ -370,22 +360,29 @@ void vtkIBLLighting::SetLamps(vtkShaderProgram* program, vtkRenderer* renderer)
   }
 }
 
-std::string vtkIBLLighting::MakeShaderText() const
+void vtkIBLLighting::UpdateShaderText()
 {
   const int lamps = this->BrightTexels ? this->SpecularChain->GetNumberOfLamps() - this->GetFirstLamp() : 0;
-  std::string text = "#define IBL_LAMPS " + std::to_string(std::max(lamps, 0)) + "\n";
+  std::string defines = "#define IBL_LAMPS " + std::to_string(std::max(lamps, 0)) + "\n";
   const char* energy = this->ReflectionModel == Classic ? "IBL_CLASSIC"
     : this->EnergyCompensation                          ? "IBL_MULTIPLE_SCATTER"
                                                         : "IBL_SINGLE_SCATTER";
-  text += std::string("#define IBL_ENERGY ") + energy + "\n";
+  defines += std::string("#define IBL_ENERGY ") + energy + "\n";
   const auto define = [&](bool condition, const char* name)
-  { text += condition ? std::string("#define ") + name + "\n" : std::string(); };
+  { defines += condition ? std::string("#define ") + name + "\n" : std::string(); };
   define(this->Needs.NeedsMirror(), "IBL_MIRROR");
   define(!this->Needs.Metal, "IBL_DIELECTRIC");
   define(!this->Needs.Dielectric && this->Needs.Metal, "IBL_METAL");
   define(this->SpecularOcclusion, "IBL_SPECULAR_OCCLUSION");
   define(this->HorizonOcclusion, "IBL_HORIZON_OCCLUSION");
-  return text + vtkIBLAssembleChunk(this->SamplesPerPixel > 0 ? "vtkIBLLightingSampled.glsl" : "vtkIBLLighting.glsl");
+  const char* file = this->SamplesPerPixel > 0 ? "vtkIBLLightingSampled.glsl" : "vtkIBLLighting.glsl";
+  defines += std::string("// ") + file + "\n";
+  if (defines != this->ShaderDefines)
+  {
+    this->ShaderDefines = defines;
+    this->ShaderText = defines + vtkIBLAssembleChunk(file);
+    this->ShaderTime.Modified();
+  }
 }
 
 std::string vtkIBLLighting::GetShaderChunk(const std::vector<std::string>& features) const

@@ -188,9 +188,9 @@ public:
   void ReleaseGraphicsResources(vtkWindow* window);
 
   /**
-   * Rotation from `renderer`'s view space to the environment's, row by row.
+   * Rotation from `renderer`'s view space to the environment's, column by column, as OpenGL takes it.
    */
-  void GetEnvironmentFromView(vtkRenderer* renderer, float rows[9]);
+  void GetEnvironmentFromView(vtkRenderer* renderer, float columns[9]);
 
 protected:
   vtkIBLLighting();
@@ -208,8 +208,8 @@ private:
   vtkNew<vtkIBLCubeMap> CubeMap;
   vtkNew<vtkIBLSpecularChain> SpecularChain;
   vtkNew<vtkIBLBRDFTable> BRDFTable;
-  std::string MakeShaderText() const;
-  void SetLamps(vtkShaderProgram* program, vtkRenderer* renderer);
+  void UpdateShaderText();
+  void SetLamps(vtkShaderProgram* program, const float environmentFromView[9]);
   int GetFirstLamp() const { return this->SunInEnvironment ? 0 : 1; }
   int ReflectionModel = Physical;
   bool EnergyCompensation = true;
@@ -218,7 +218,8 @@ private:
   bool SpecularOcclusion = true;
   bool HorizonOcclusion = true;
   int SamplesPerPixel = 0;
-  std::string ShaderText; // as of the last Update()
+  std::string ShaderDefines; // as of the last Update(), and the file under them
+  std::string ShaderText;
   vtkTimeStamp ShaderTime;
   vtkIBLSceneNeeds Needs; // since the light is what it is
   vtkMTimeType NeedsTime = 0;
