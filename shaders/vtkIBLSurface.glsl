@@ -81,12 +81,12 @@ struct iblBoundary
 #endif
 };
 
-// Light on a matt base, per albedo: all of it, the part that Schlick's term lets in, and what of it the layers are short of.
+// Light on a matt base, per albedo: all of it, the part that Schlick's term lets in, and the part that layers hold, without lamps.
 struct iblDiffuse
 {
   vec3 irradiance; // over pi
   vec3 refracted; // over pi
-  vec3 layers; // over pi: of the light that layers hold
+  vec3 layers; // over pi
 };
 iblDiffuse iblDiffuseLight(iblBoundary boundary, vec3 viewVC);
 vec3 iblReflectedLight(iblBoundary boundary, vec3 viewVC, vec3 layers);

@@ -180,27 +180,26 @@ vtkIBLLighting* vtkIBLRenderPass::GetLighting()
   return this->Lighting;
 }
 
-void vtkIBLRenderPass::SetOutputEncoding(int encoding)
-{
-  if (encoding != Display && encoding != Linear)
-  {
-    vtkErrorMacro("OutputEncoding is " << encoding << "; it is Display (0) or Linear (1). The old one stays.");
-  }
-  else if (encoding != this->OutputEncoding)
-  {
-    this->OutputEncoding = encoding;
-    this->ShaderTime.Modified();
-    this->Modified();
-  }
-}
-
-void vtkIBLRenderPass::SetShaderOption(bool& option, bool value)
+template <typename T>
+void vtkIBLRenderPass::SetShaderOption(T& option, T value)
 {
   if (value != option)
   {
     option = value;
     this->ShaderTime.Modified();
     this->Modified();
+  }
+}
+
+void vtkIBLRenderPass::SetOutputEncoding(int encoding)
+{
+  if (encoding != Display && encoding != Linear)
+  {
+    vtkErrorMacro("OutputEncoding is " << encoding << "; it is Display (0) or Linear (1). The old one stays.");
+  }
+  else
+  {
+    this->SetShaderOption(this->OutputEncoding, encoding);
   }
 }
 

@@ -182,7 +182,8 @@ private:
   bool Accumulates(const vtkRenderState* state) const;
   vtkIBLStamp GetStamp(const vtkRenderState* state);
 
-  void SetShaderOption(bool& option, bool value);
+  template <typename T>
+  void SetShaderOption(T& option, T value);
 
   vtkNew<vtkIBLLighting> Lighting;
   vtkNew<vtkIBLBackground> Background;

@@ -162,6 +162,23 @@ protected:
     renderer->GetActiveCamera()->SetClippingRange(0.5, 12);
   }
 
+  // The same scene in another window, by actors of its own.
+  void SetUpWindow(vtkIBLOffscreenWindow* window, vtkRenderer* renderer, vtkRenderPass* pass)
+  {
+    window->DebugContextOn();
+    window->SetSize(Size, Size);
+    vtkNew<vtkActor> ball;
+    vtkNew<vtkActor> floor;
+    this->SetUpActor(ball, this->Sphere);
+    this->SetUpActor(floor, this->Plane);
+    this->SetUpRenderer(renderer);
+    renderer->RemoveAllViewProps();
+    renderer->AddActor(ball);
+    renderer->AddActor(floor);
+    renderer->SetPass(pass);
+    window->AddRenderer(renderer);
+  }
+
   void TearDown() override
   {
     this->Renderer->SetPass(nullptr);
@@ -510,21 +527,10 @@ TEST_F(TestCompanyGL, SharesAnEnvironmentAmongWindows)
   for (int i = 0; i < 2; ++i)
   {
     vtkNew<vtkIBLOffscreenWindow> window;
-    window->DebugContextOn();
-    window->SetSize(Size, Size);
-    vtkNew<vtkActor> ball;
-    vtkNew<vtkActor> floor;
-    this->SetUpActor(ball, this->Sphere);
-    this->SetUpActor(floor, this->Plane);
-    vtkNew<vtkRenderer> renderer;
-    this->SetUpRenderer(renderer);
-    renderer->RemoveAllViewProps();
-    renderer->AddActor(ball);
-    renderer->AddActor(floor);
     vtkNew<vtkIBLRenderPass> pass;
     pass->SetEnvironment(this->Environment);
-    renderer->SetPass(pass);
-    window->AddRenderer(renderer);
+    vtkNew<vtkRenderer> renderer;
+    this->SetUpWindow(window, renderer, pass);
     window->Render();
     EXPECT_EQ(window->GetNumberOfHighSeverityMessages(), 0) << window->GetLastHighSeverityMessage();
     EXPECT_EQ(CountDifferences(GetPicture(window), first), 0);
@@ -542,19 +548,8 @@ TEST_F(TestCompanyGL, MovesAmongWindows)
   const Bytes first = this->Render(this->Pass);
   this->Renderer->SetPass(nullptr);
   vtkNew<vtkIBLOffscreenWindow> window;
-  window->DebugContextOn();
-  window->SetSize(Size, Size);
-  vtkNew<vtkActor> ball;
-  vtkNew<vtkActor> floor;
-  this->SetUpActor(ball, this->Sphere);
-  this->SetUpActor(floor, this->Plane);
   vtkNew<vtkRenderer> renderer;
-  this->SetUpRenderer(renderer);
-  renderer->RemoveAllViewProps();
-  renderer->AddActor(ball);
-  renderer->AddActor(floor);
-  renderer->SetPass(this->Pass);
-  window->AddRenderer(renderer);
+  this->SetUpWindow(window, renderer, this->Pass);
   window->Render();
   EXPECT_EQ(window->GetNumberOfHighSeverityMessages(), 0) << window->GetLastHighSeverityMessage();
   EXPECT_EQ(CountDifferences(GetPicture(window), first), 0);

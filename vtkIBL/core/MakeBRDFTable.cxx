@@ -15,7 +15,8 @@
 namespace
 {
 using Functions = vtkIBLCore::ShaderFunctions<double>;
-using Texel = std::array<double, vtkIBLBRDFTableChannels>;
+using Texel = std::array<double, vtkIBLBRDFTableBlocks * vtkIBLBRDFTableChannels>; // of one block, then the other
+constexpr int FirstFitted = 2;                                                     // A and B are integrated
 constexpr int Size = vtkIBLBRDFTableSize;
 Functions shader;
 
@@ -41,15 +42,15 @@ Texel Integrate(double NoV, double perceptualRoughness)
 }
 
 // Of texels 0, 2, 4 ... and the last of each row and column; the others lie between them.
-void FitLobes(const vtkIBLLobeFitter& fitter, int i, int j, Texel& reflection, Texel& lobes)
+void FitLobes(const vtkIBLLobeFitter& fitter, int i, int j, Texel& texel)
 {
   const Functions::vec2 at = shader.iblBRDFTableArguments(i, j, Size);
   for (int set = 0; set < 2; ++set)
   {
     const vtkIBLFittedLobe lobe = fitter.Fit(at.x, at.y, set == 0 ? 1.0 : IBL_DIELECTRIC_F0);
-    lobes[2 * set] = lobe.Bend;
-    lobes[2 * set + 1] = shader.iblLadderPosition(lobe.PerceptualRoughness);
-    reflection[2 + set] = lobe.DiffuseShare;
+    texel[4 + 2 * set] = lobe.Bend;
+    texel[5 + 2 * set] = shader.iblLadderPosition(lobe.PerceptualRoughness);
+    texel[2 + set] = lobe.DiffuseShare;
   }
 }
 
@@ -88,8 +89,7 @@ int main(int argc, char* argv[])
     std::cerr << "usage: MakeBRDFTable FILE.cxx\n";
     return 2;
   }
-  std::vector<Texel> reflection(Size * Size);
-  std::vector<Texel> lobes(Size * Size);
+  std::vector<Texel> table(Size * Size);
   const vtkIBLLobeFitter fitter;
   ForEachRow(
     [&](int j)
@@ -97,22 +97,18 @@ int main(int argc, char* argv[])
       for (int i = 0; i < Size; ++i)
       {
         const Functions::vec2 at = shader.iblBRDFTableArguments(i, j, Size);
-        reflection[j * Size + i] = Integrate(at.x, at.y);
+        table[j * Size + i] = Integrate(at.x, at.y);
         if (IsFitted(i) && IsFitted(j))
         {
-          FitLobes(fitter, i, j, reflection[j * Size + i], lobes[j * Size + i]);
+          FitLobes(fitter, i, j, table[j * Size + i]);
         }
       }
     });
   auto setBetween = [&](int texel, int before, int after)
   {
-    for (int c = 0; c < vtkIBLBRDFTableChannels; ++c)
+    for (std::size_t c = FirstFitted; c < table[texel].size(); ++c)
     {
-      lobes[texel][c] = 0.5 * (lobes[before][c] + lobes[after][c]);
-      if (c >= 2)
-      {
-        reflection[texel][c] = 0.5 * (reflection[before][c] + reflection[after][c]);
-      }
+      table[texel][c] = 0.5 * (table[before][c] + table[after][c]);
     }
   };
   for (int texel = 0; texel < Size * Size; ++texel)
@@ -133,13 +129,13 @@ int main(int argc, char* argv[])
   std::ofstream file(argv[1]);
   file << "// Made by MakeBRDFTable.cxx; do not edit.\n#include \"vtkIBLBRDFTableTexels.h\"\n\n"
        << "const std::uint16_t vtkIBLBRDFTableTexels[] = {\n";
-  for (const std::vector<Texel>* block : { &reflection, &lobes })
+  for (int block = 0; block < vtkIBLBRDFTableBlocks; ++block)
   {
-    for (const Texel& texel : *block)
+    for (const Texel& texel : table)
     {
-      for (double x : texel)
+      for (int c = 0; c < vtkIBLBRDFTableChannels; ++c)
       {
-        file << std::lround(65535.0 * x) << ',';
+        file << std::lround(65535.0 * texel[block * vtkIBLBRDFTableChannels + c]) << ',';
       }
       file << '\n';
     }

@@ -12,7 +12,7 @@ constexpr int Order = vtkIBLLobeFitter::Order;
 constexpr double Pi = 3.14159265358979323846;
 constexpr double FirstRoughness =
   0.1;                           // below, layers are mixed with the mirror, and the lobe is a mirror to the order kept
-constexpr int KernelCount = 201; // steps of 2 % of roughness
+constexpr int KernelCount = 201; // steps of 1.5 % of roughness
 constexpr double SharpestKernel = 0.05; // perceptualRoughness
 
 double GetRoughness(double kernel)
