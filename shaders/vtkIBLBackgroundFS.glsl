@@ -5,6 +5,7 @@ layout(location = 0) out vec4 color;
 layout(location = 1) out vec4 positionVC; // these two for vtkSSAOPass, where it has buffers of them: a sky far behind
 layout(location = 2) out vec4 normalVC;   // whatever there is, which occludes nothing; 6e4: they are half floats
 uniform float blur;             // perceptualRoughness; 0: sharp
+uniform float sharpLevel;       // mip level to read it at when sharp
 uniform vec2 viewScale;         // view-space x and y at depth 1 are (ndc + viewShift) * viewScale
 uniform vec2 viewShift;
 uniform mat3 environmentFromView;
@@ -22,7 +23,8 @@ uniform vec3 lampKernels[IBL_MAXIMUM_LAMPS]; // k, 1 - k, Scale
 void main()
 {
   vec3 direction = environmentFromView * vec3((ndc + viewShift) * viewScale, -1.0);
-  vec3 radiance = iblPrefilteredRadiance(direction, blur) * iblStoredScale;
+  vec3 radiance = blur == 0.0 ? textureLod(iblRadiance, direction, sharpLevel).rgb
+                              : iblPrefilteredRadiance(direction, blur) * iblStoredScale;
   for (int i = 0; i < lampCount; ++i)
   {
     vec3 apart = normalize(direction) - lampDirections[i];

@@ -11,25 +11,40 @@ uniform float iblStoredScale; // what layers are divided by, and the radiance cu
 
 #include "vtkIBLLadderFunctions.glsl"
 
-// Stored light from direction [environment space] at a layer, or between two.
-vec3 iblLayerRadiance(vec3 direction, float at)
+// Where a layer, or what lies between two, is read: mip levels of both cubes, and the share of the odd ones.
+struct iblLayerTaps
+{
+  float even;
+  float odd;
+  float oddShare;
+  bool isMirror; // what stands for the even layer is the mirror
+};
+
+iblLayerTaps iblFindLayer(float at, float layers)
 {
 #ifdef IBL_MIRROR
   const float sharpest = 0.0;
 #else
   const float sharpest = 1.0;
 #endif
-  float layer = clamp(at, sharpest, iblLayers);
-  float below = min(floor(layer), iblLayers - 1.0);
+  float layer = clamp(at, sharpest, layers);
+  float below = min(floor(layer), layers - 1.0);
   float share = layer - below;
   float level = floor(0.5 * below);
   bool belowIsEven = 2.0 * level == below;
-  vec3 even = textureLod(iblEvenLayers, direction, max(belowIsEven ? level - 1.0 : level, 0.0)).rgb;
+  return iblLayerTaps(max(belowIsEven ? level - 1.0 : level, 0.0), level, belowIsEven ? share : 1.0 - share, below == 0.0);
+}
+
+// Stored light from direction [environment space] at a layer, or between two.
+vec3 iblLayerRadiance(vec3 direction, float at)
+{
+  iblLayerTaps taps = iblFindLayer(at, iblLayers);
+  vec3 even = textureLod(iblEvenLayers, direction, taps.even).rgb;
 #ifdef IBL_MIRROR
-  even = below == 0.0 ? textureLod(iblRadiance, direction, 0.0).rgb / iblStoredScale : even;
+  even = taps.isMirror ? textureLod(iblRadiance, direction, 0.0).rgb / iblStoredScale : even;
 #endif
-  vec3 odd = share == 0.0 && belowIsEven ? even : textureLod(iblOddLayers, direction, level).rgb;
-  return mix(even, odd, belowIsEven ? share : 1.0 - share);
+  // A layer that nobody made is read times 0; what is in it is finite.
+  return mix(even, textureLod(iblOddLayers, direction, taps.odd).rgb, taps.oddShare);
 }
 
 // The same through a GGX lobe of perceptualRoughness.

@@ -12,15 +12,70 @@ uniform vec3 iblLampPowers[IBL_LAMPS];     // radiance x solid angle [sr], of th
 #include "vtkIBLSamplingFunctions.glsl"
 #include "vtkIBLBRDFFunctions.glsl"
 
+#ifdef IBL_PROBES
+uniform samplerCubeArray iblProbeOddLayers;
+uniform samplerCubeArray iblProbeEvenLayers;
+uniform float iblProbeLayers; // number of the last layer
+
+// A probe's light through the lobe at `position` on the ladder, around directionVC from positionVC. A wide lobe is not
+// turned by parallax as a narrow one is.
+vec3 iblProbeReflection(iblProbe probe, vec3 positionVC, vec3 directionVC, float position)
+{
+  vec3 unit = iblTransform(probe.unitFromView, vec4(positionVC, 1.0));
+  vec4 parallax = iblParallaxDirection(probe, unit, directionVC);
+  float roughness = iblPerceptualRoughnessFromPosition(position);
+  vec3 straight = iblTransform(probe.cubeFromUnit, vec4(iblTransform(probe.unitFromView, vec4(directionVC, 0.0)), 0.0));
+  vec3 direction = mix(parallax.xyz / max(length(parallax.xyz), 1e-20), straight / max(length(straight), 1e-20), roughness);
+  float at = iblLayerFromPosition(iblLadderPosition(iblRoughnessFromProbe(roughness, parallax.w)), iblProbeLayers);
+  iblLayerTaps taps = iblFindLayer(at, iblProbeLayers);
+  vec3 even = textureLod(iblProbeEvenLayers, vec4(direction, probe.use.x), taps.even).rgb;
+#ifdef IBL_MIRROR
+  even = taps.isMirror ? textureLod(iblProbeRadiance, vec4(direction, probe.use.x), 0.0).rgb / probe.scale.w : even;
+#endif
+  vec3 odd = textureLod(iblProbeOddLayers, vec4(direction, probe.use.x), taps.odd).rgb;
+  return probe.scale.rgb * mix(even, odd, taps.oddShare);
+}
+
+// Irradiance over pi: the roughest layer, which is an even one, along the normal.
+vec3 iblProbeIrradiance(iblProbe probe, vec3 normalVC)
+{
+  vec3 direction = iblTransform(probe.cubeFromUnit, vec4(iblTransform(probe.unitFromView, vec4(normalVC, 0.0)), 0.0));
+  return probe.scale.rgb * textureLod(iblProbeEvenLayers, vec4(direction, probe.use.x), 0.5 * iblProbeLayers - 1.0).rgb;
+}
+
+#define IBL_OF_THE_SKY boundary.skyScale *
+#else
+#define IBL_OF_THE_SKY
+#endif
+
+// Light through the lobe at `position` on the ladder, around directionVC.
+vec3 iblLobeRadiance(iblBoundary boundary, vec3 directionVC, float position)
+{
+  vec3 light = IBL_OF_THE_SKY iblLayerRadiance(iblEnvironmentFromView * directionVC, iblLayerFromPosition(position, iblLayers));
+#ifdef IBL_PROBES
+  for (int i = 0; i < iblProbeCount; ++i)
+  {
+    light += boundary.probeShares[i] * iblProbeReflection(iblGetProbe(i), boundary.position, directionVC, position);
+  }
+#endif
+  return light;
+}
+
 iblDiffuse iblDiffuseLight(iblBoundary boundary, vec3 viewVC)
 {
   iblDiffuse light;
-  light.layers = textureLod(iblIrradiance, iblEnvironmentFromView * boundary.normal, 0.0).rgb;
+  light.layers = IBL_OF_THE_SKY textureLod(iblIrradiance, iblEnvironmentFromView * boundary.normal, 0.0).rgb;
+#ifdef IBL_PROBES
+  for (int i = 0; i < iblProbeCount; ++i)
+  {
+    light.layers += boundary.probeShares[i] * iblProbeIrradiance(iblGetProbe(i), boundary.normal);
+  }
+#endif
   light.irradiance = light.layers;
 #if IBL_LAMPS > 0
   for (int i = 0; i < IBL_LAMPS; ++i)
   {
-    light.irradiance += iblLampPowers[i] * (max(dot(boundary.normal, iblLampDirections[i].xyz), 0.0) / iblPi);
+    light.irradiance += IBL_OF_THE_SKY iblLampPowers[i] * (max(dot(boundary.normal, iblLampDirections[i].xyz), 0.0) / iblPi);
   }
 #endif
 #if IBL_ENERGY == IBL_SINGLE_SCATTER
@@ -67,7 +122,7 @@ vec3 iblReflectedLamps(iblBoundary boundary, vec3 viewVC)
 #endif
     sum += iblLampPowers[i] * (max(NoL, 0.0) * lobe) * iblF_Schlick(boundary.f0, boundary.f90, VoH);
   }
-  return min(boundary.perceptualRoughness / IBL_FIRST_ROUGHNESS, 1.0) * sum;
+  return IBL_OF_THE_SKY (min(boundary.perceptualRoughness / IBL_FIRST_ROUGHNESS, 1.0) * sum);
 }
 #endif
 
@@ -82,7 +137,6 @@ vec3 iblAnisotropicRadiance(iblBoundary boundary, vec3 viewVC, vec2 lobe)
   vec3 along = (wideTangent ? boundary.tangent : boundary.bitangent) * (wide - iblNarrowAlpha(boundary.alpha));
   mat3 tangentFromView = transpose(mat3(boundary.tangent, boundary.bitangent, boundary.normal));
   vec3 V = vec3((tangentFromView * viewVC).xy, boundary.NoV);
-  float layer = iblLayerFromPosition(lobe.y, iblLayers);
   vec3 sum = vec3(0.0);
   float weights = 1e-6;
   for (int i = 0; i < IBL_ANISOTROPIC_LOBES; ++i)
@@ -93,7 +147,7 @@ vec3 iblAnisotropicRadiance(iblBoundary boundary, vec3 viewVC, vec2 lobe)
     vec3 local = tangentFromView * L;
     float weight = local.z > 0.0 ? iblV_SmithGGXAnisotropic(V, local, boundary.alpha) * local.z *
         max(dot(viewVC, H), 0.0) / dot(H, boundary.normal) : 0.0;
-    sum += weight * iblLayerRadiance(iblEnvironmentFromView * mix(H, L, lobe.x), layer);
+    sum += weight * iblLobeRadiance(boundary, mix(H, L, lobe.x), lobe.y);
     weights += weight;
   }
   return sum / weights;
@@ -116,8 +170,7 @@ vec3 iblReflectedLight(iblBoundary boundary, vec3 viewVC, vec3 layers)
   else
 #endif
   {
-    radiance = iblLayerRadiance(
-      iblEnvironmentFromView * mix(boundary.normal, reflected, lobe.x), iblLayerFromPosition(lobe.y, iblLayers));
+    radiance = iblLobeRadiance(boundary, mix(boundary.normal, reflected, lobe.x), lobe.y);
   }
   radiance = boundary.once * mix(radiance, layers, diffuseShare);
 #ifdef IBL_HORIZON

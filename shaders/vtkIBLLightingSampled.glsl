@@ -55,10 +55,23 @@ vec3 iblLampDirection(int lamp, int i, uint shift)
 }
 #endif
 
+#ifdef IBL_PROBES
+// Radiance from directionVC, where the sky, whose faces have so many texels, would be read at that mip level.
+vec3 iblProbeSample(iblProbe probe, vec3 positionVC, vec3 directionVC, float texelsOfSky, float level)
+{
+  vec3 unit = iblTransform(probe.unitFromView, vec4(positionVC, 1.0));
+  vec4 parallax = iblParallaxDirection(probe, unit, directionVC);
+  // A cone that is narrower from the probe by this ratio covers the same patch of the proxy; texels are coarser or finer than the sky's.
+  float finer = log2(float(textureSize(iblProbeRadiance, 0).x) / texelsOfSky * max(parallax.w, 1e-3));
+  float at = max(level + finer, 0.0);
+  return probe.scale.rgb / probe.scale.w * textureLod(iblProbeRadiance, vec4(parallax.xyz, probe.use.x), at).rgb;
+}
+#endif
+
 // The environment from `direction` [view space], at the mip level that one of so many samples of that density stands for: with those of
 // the frames before, so that the mean converges to the integral over the light, not over a blurred one. Beside a lamp no level reaches
 // into it (1.5 texels), since what lies outside its cap is counted in full.
-vec3 iblSampleRadiance(vec3 direction, float pdf)
+vec3 iblSampleRadiance(iblBoundary boundary, vec3 direction, float pdf)
 {
   float faceSize = float(textureSize(iblRadiance, 0).x);
   float level = iblFilteredLod(pdf, float(iblFirstSample + iblSamplesPerPixel), faceSize);
@@ -70,7 +83,15 @@ vec3 iblSampleRadiance(vec3 direction, float pdf)
   }
   level = min(level, log2(max(nearest * faceSize / 3.0, 1.0))); // a texel is 2 / n wide in the middle of a face
 #endif
-  return textureLod(iblRadiance, iblEnvironmentFromView * direction, max(level, 0.0)).rgb;
+  vec3 radiance = textureLod(iblRadiance, iblEnvironmentFromView * direction, max(level, 0.0)).rgb;
+#ifdef IBL_PROBES
+  radiance *= boundary.skyScale;
+  for (int i = 0; i < iblProbeCount; ++i)
+  {
+    radiance += boundary.probeShares[i] * iblProbeSample(iblGetProbe(i), boundary.position, direction, faceSize, level);
+  }
+#endif
+  return radiance;
 }
 
 // Adds to `light` a sample of irradiance / pi.
@@ -80,7 +101,7 @@ iblDiffuse iblAddDiffuse(iblDiffuse light, iblBoundary boundary, vec3 viewVC, ve
   float density = pdf + iblLampDensity(L);
   if (pdf > 0.0)
   {
-    vec3 radiance = iblSampleRadiance(L, density) * (pdf / (density * float(iblSamplesPerPixel)));
+    vec3 radiance = iblSampleRadiance(boundary, L, density) * (pdf / (density * float(iblSamplesPerPixel)));
     float VoH = clamp(dot(viewVC, normalize(viewVC + L)), 0.0, 1.0);
     light.irradiance += radiance;
     light.refracted += radiance * (vec3(1.0) - iblF_Schlick(boundary.f0, boundary.f90, VoH));
@@ -130,7 +151,7 @@ vec3 iblReflectedSample(iblBoundary boundary, vec3 V, vec3 L, vec3 H, vec3 direc
   float density = pdf + iblLampDensity(directionVC);
   float weight = 2.0 * L.z * iblV_SmithGGXAnisotropic(V, L, alpha) * visible.y * (pdf / density);
   vec3 fresnel = iblF_Schlick(boundary.f0, boundary.f90, clamp(dot(V, H), 0.0, 1.0));
-  return weight * fresnel * iblSampleRadiance(directionVC, density);
+  return weight * fresnel * iblSampleRadiance(boundary, directionVC, density);
 }
 
 vec3 iblReflectedLight(iblBoundary boundary, vec3 viewVC, vec3 layers)

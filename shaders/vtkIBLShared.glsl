@@ -9,6 +9,9 @@
 // Layers are half floats.
 #define IBL_LARGEST_HALF 65504.0
 
+// What is brighter is no light but a fault.
+#define IBL_LARGEST_RADIANCE 1e10
+
 // Rec. 709. (GLSL only.)
 #define IBL_LUMINANCE vec3(0.2126, 0.7152, 0.0722)
 
@@ -23,6 +26,13 @@
 
 // Bright texels that shading takes as lights.
 #define IBL_MAXIMUM_LAMPS 8
+
+// Probes that one actor is lit by, vec4s that tell the shader of each, and shapes of their proxies.
+#define IBL_MAXIMUM_PROBES 4
+#define IBL_PROBE_NUMBERS 11
+#define IBL_PROXY_NONE 0.0
+#define IBL_PROXY_BOX 1.0
+#define IBL_PROXY_BALL 2.0
 
 // iblSplitSum: the geometry term.
 #define IBL_SMITH_CORRELATED 0

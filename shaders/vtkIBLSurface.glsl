@@ -6,6 +6,7 @@
 //   IBL_METAL, IBL_DIELECTRIC: the surface is known to be all of that
 //   IBL_ANISOTROPY, IBL_COAT, IBL_OCCLUSION, IBL_SPECULAR_OCCLUSION: defined or not
 //   IBL_BUMPED, IBL_HORIZON_OCCLUSION: the normal is bumped, and reflections end at the unbumped surface's horizon
+//   IBL_PROBES: there are local probes; all light is then scaled where it is read
 // and defines iblDiffuseLight() and iblReflectedLight(), declared below.
 #if defined(IBL_BUMPED) && defined(IBL_HORIZON_OCCLUSION)
 #define IBL_HORIZON
@@ -20,6 +21,12 @@ uniform vec3 iblRadianceScale; // from the light as it is stored to the scene's:
 uniform int iblParallelProjection;
 
 #include "vtkIBLEnergyFunctions.glsl"
+#ifdef IBL_PROBES
+#include "vtkIBLProbes.glsl"
+#define IBL_OUTGOING_SCALE vec3(1.0)
+#else
+#define IBL_OUTGOING_SCALE iblRadianceScale
+#endif
 
 // All directions are unit vectors in view space.
 struct iblMaterial
@@ -50,7 +57,7 @@ struct iblMaterial
 #endif
 };
 
-// Stored light towards the camera, to be multiplied by iblRadianceScale; and the share of even light that is reflected without
+// Light towards the camera, to be multiplied by IBL_OUTGOING_SCALE; and the share of even light that is reflected without
 // entering the surface.
 struct iblOutgoing
 {
@@ -70,6 +77,11 @@ struct iblBoundary
   vec3 once; // share of even light that it reflects once
   vec4 reflection; // the table's first block, and second
   vec4 lobes;
+#ifdef IBL_PROBES
+  vec3 position; // view space
+  vec4 probeShares;
+  vec3 skyScale; // what is left for the sky, and its scale
+#endif
 #ifdef IBL_HORIZON
   vec3 geometricNormal;
 #endif
@@ -108,7 +120,7 @@ vec4 iblReadTable(float NoV, float perceptualRoughness, float block)
     iblBRDFTable, iblBRDFTableCoordinates(NoV, perceptualRoughness, block, float(IBL_TABLE_SIZE)), 0.0);
 }
 
-iblBoundary iblMakeBoundary(iblMaterial material, vec3 normal, vec3 viewVC, float perceptualRoughness)
+iblBoundary iblMakeBoundary(iblMaterial material, vec3 normal, vec3 positionVC, vec3 viewVC, float perceptualRoughness)
 {
   iblBoundary boundary;
   boundary.normal = normal;
@@ -116,6 +128,11 @@ iblBoundary iblMakeBoundary(iblMaterial material, vec3 normal, vec3 viewVC, floa
   boundary.perceptualRoughness = clamp(perceptualRoughness, 0.0, 1.0);
   boundary.reflection = iblReadTable(boundary.NoV, boundary.perceptualRoughness, 0.0);
   boundary.lobes = iblReadTable(boundary.NoV, boundary.perceptualRoughness, 1.0);
+#ifdef IBL_PROBES
+  boundary.position = positionVC;
+  boundary.probeShares = iblProbeShares(positionVC);
+  boundary.skyScale = (1.0 - dot(boundary.probeShares, vec4(1.0))) * iblRadianceScale;
+#endif
 #ifdef IBL_HORIZON
   boundary.geometricNormal = material.geometricNormal;
 #endif
@@ -150,7 +167,7 @@ vec3 iblOnce(vec3 f0, vec3 f90, iblBoundary boundary)
 iblOutgoing iblEnvironmentLight(iblMaterial material, vec3 positionVC)
 {
   vec3 viewVC = iblViewDirection(positionVC);
-  iblBoundary surface = iblMakeBoundary(material, material.normal, viewVC, material.perceptualRoughness);
+  iblBoundary surface = iblMakeBoundary(material, material.normal, positionVC, viewVC, material.perceptualRoughness);
 #ifdef IBL_ANISOTROPY
   surface.anisotropic = true;
   surface.tangent = material.tangent;
@@ -194,7 +211,7 @@ iblOutgoing iblEnvironmentLight(iblMaterial material, vec3 positionVC)
 #endif
 #ifdef IBL_COAT
   // Over it a clear coat: what it reflects, all of it dielectric, is lost to what is below, which is tinted on its way.
-  iblBoundary coat = iblMakeBoundary(material, material.coatNormal, viewVC, material.coatRoughness);
+  iblBoundary coat = iblMakeBoundary(material, material.coatNormal, positionVC, viewVC, material.coatRoughness);
   coat.f0 = vec3(material.coatF0);
   coat.f90 = vec3(1.0);
   coat.once = iblOnce(coat.f0, coat.f90, coat);

@@ -5,42 +5,15 @@
 #pragma once
 
 #include "vtkIBLGL.h"
+#include "vtkIBLStamp.h"
 
 #include "vtkNew.h"
 #include "vtkOpenGLFramebufferObject.h"
 
 #include <array>
-#include <cstdint>
 #include <functional>
-#include <vector>
 
-class vtkAlgorithm;
-class vtkObject;
-class vtkProp;
-class vtkProperty;
-class vtkRenderState;
 class vtkRenderer;
-
-/// What a picture depends on. Equal stamps: equal pictures, but for noise.
-class vtkIBLStamp
-{
-public:
-  vtkIBLStamp() = default; // equal to no other
-  /// Of camera, lights, visible props with what they draw, and the renderer.
-  explicit vtkIBLStamp(const vtkRenderState* state);
-  void Add(std::uint64_t time) { this->Words.push_back(time); }
-  void Add(vtkObject* object); ///< which, and when it last changed; may be null
-  void Add(const double* numbers, int count);
-  /// Takes over the renderer's time: a selection changes its background and changes it back.
-  void ForgiveSelection(const vtkIBLStamp& now);
-  bool operator==(const vtkIBLStamp& other) const { return this->Words == other.Words; }
-
-private:
-  void AddWithInputs(vtkAlgorithm* algorithm);
-  void AddProperty(vtkProperty* property);
-  void AddProp(vtkProp* prop);
-  std::vector<std::uint64_t> Words; // the first is the renderer's time
-};
 
 class vtkIBLAccumulation
 {

@@ -75,6 +75,7 @@ int vtkIBLBackground::RenderOpaqueGeometry(vtkViewport* viewport)
     this->Lighting->SetLayerParameters(gl.Program);
     this->Lighting->SetLampParameters(gl.Program, this->Blur);
     gl.Program.Set("blur", float(this->Blur));
+    gl.Program.Set("sharpLevel", float(this->SharpLevel));
 
     glm::vec2 scale;
     glm::vec2 shift;

@@ -25,6 +25,8 @@ public:
   void SetLighting(vtkIBLLighting* lighting) { this->Lighting = lighting; }
   /// 0: the cube map itself; above: as a surface of this perceptualRoughness mirrors it.
   void SetBlur(double blur) { this->Blur = blur; }
+  /// Mip level of the cube map that is shown without blur.
+  void SetSharpLevel(double level) { this->SharpLevel = level; }
   void SetDisplayEncoding(bool encode) { this->DisplayEncoding = encode; }
 
   int RenderOpaqueGeometry(vtkViewport* viewport) override;
@@ -42,6 +44,7 @@ private:
   std::unique_ptr<Internals> Internal;
   vtkIBLLighting* Lighting = nullptr; // owned by the pass that owns this
   double Blur = 0.0;
+  double SharpLevel = 0.0;
   bool DisplayEncoding = true;
 };
 

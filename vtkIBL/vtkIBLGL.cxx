@@ -86,17 +86,22 @@ void Object::Delete()
 //------------------------------------------------------------------------------
 namespace
 {
-GLuint CreateTexture(GLenum target, int width, int height, int levels, GLenum format)
+void SetFilters(GLuint name, int levels)
 {
-  GLuint name = 0;
-  glCreateTextures(target, 1, &name);
-  glTextureStorage2D(name, levels, format, width, height);
   glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, levels > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   for (GLenum wrap : { GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R })
   {
     glTextureParameteri(name, wrap, GL_CLAMP_TO_EDGE);
   }
+}
+
+GLuint CreateTexture(GLenum target, int width, int height, int levels, GLenum format)
+{
+  GLuint name = 0;
+  glCreateTextures(target, 1, &name);
+  glTextureStorage2D(name, levels, format, width, height);
+  SetFilters(name, levels);
   return name;
 }
 
@@ -110,6 +115,32 @@ Texture Texture::Cube(vtkOpenGLRenderWindow* window, int faceSize, int levels, G
 {
   Texture texture(window, CreateTexture(GL_TEXTURE_CUBE_MAP, faceSize, faceSize, levels, format), DeleteTexture);
   CheckErrors("allocating a cube map");
+  return texture;
+}
+
+Texture Texture::CubeArray(vtkOpenGLRenderWindow* window, int faceSize, int count, int levels, GLenum format)
+{
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_CUBE_MAP_ARRAY, 1, &name);
+  Texture texture(window, name, DeleteTexture);
+  glTextureStorage3D(name, levels, format, faceSize, faceSize, 6 * count);
+  SetFilters(name, levels);
+  CheckErrors("allocating cube maps");
+  return texture;
+}
+
+Texture Texture::CubeOf(vtkOpenGLRenderWindow* window, const Texture& array, int element)
+{
+  GLint format = 0;
+  GLint levels = 0;
+  glGetTextureLevelParameteriv(array.Id(), 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
+  glGetTextureParameteriv(array.Id(), GL_TEXTURE_IMMUTABLE_LEVELS, &levels);
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  Texture texture(window, name, DeleteTexture);
+  glTextureView(name, GL_TEXTURE_CUBE_MAP, array.Id(), GLenum(format), 0, GLuint(levels), GLuint(6 * element), 6);
+  SetFilters(name, levels);
+  CheckErrors("looking at one cube map of an array");
   return texture;
 }
 
@@ -152,6 +183,32 @@ Buffer Buffer::Make(vtkOpenGLRenderWindow* window, std::size_t bytes, const void
   glNamedBufferStorage(name, GLsizeiptr(bytes), data, 0);
   CheckErrors("allocating a buffer");
   return buffer;
+}
+
+Framebuffer Framebuffer::Make(vtkOpenGLRenderWindow* window, int size)
+{
+  GLuint name = 0;
+  glCreateFramebuffers(1, &name);
+  Framebuffer framebuffer(window, name, [](GLuint id) { glDeleteFramebuffers(1, &id); });
+  GLuint depth = 0;
+  glCreateRenderbuffers(1, &depth);
+  framebuffer.Depth = Object(window, depth, [](GLuint id) { glDeleteRenderbuffers(1, &id); });
+  glNamedRenderbufferStorage(depth, GL_DEPTH_COMPONENT32F, size, size);
+  glNamedFramebufferRenderbuffer(name, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+  CheckErrors("allocating a framebuffer");
+  return framebuffer;
+}
+
+void Framebuffer::AttachLayer(const Texture& texture, int level, int layer) const
+{
+  glNamedFramebufferTextureLayer(this->Id(), GL_COLOR_ATTACHMENT0, texture.Id(), level, layer);
+  if (const GLenum status = glCheckNamedFramebufferStatus(this->Id(), GL_DRAW_FRAMEBUFFER);
+      status != GL_FRAMEBUFFER_COMPLETE)
+  {
+    std::ostringstream words;
+    words << "this driver can't draw to a face of a cube map (framebuffer status 0x" << std::hex << status << ")";
+    throw std::runtime_error(words.str());
+  }
 }
 
 VertexArray VertexArray::Make(vtkOpenGLRenderWindow* window)

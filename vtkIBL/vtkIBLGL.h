@@ -52,6 +52,9 @@ public:
   Texture() = default;
   /// Immutable storage, linear filters (with mip levels when there is more than one), clamped edges.
   static Texture Cube(vtkOpenGLRenderWindow* window, int faceSize, int levels, GLenum format);
+  /// `count` of them, as elements of one array; and one of these as a cube map of its own, which shares its texels.
+  static Texture CubeArray(vtkOpenGLRenderWindow* window, int faceSize, int count, int levels, GLenum format);
+  static Texture CubeOf(vtkOpenGLRenderWindow* window, const Texture& array, int element);
   static Texture Image2D(vtkOpenGLRenderWindow* window, int width, int height, GLenum format);
   int GetWidth(int level = 0) const;
   /// Texels of one level as float RGB or RGBA: n x n x 6 of a cube, face after face in GL's order, row 0 at t = -1; w x
@@ -66,6 +69,19 @@ public:
   Buffer() = default;
   static Buffer Make(vtkOpenGLRenderWindow* window, std::size_t bytes, const void* data);
   using Object::Object;
+};
+
+/// A framebuffer of one colour, which is attached before each use, and depth of its own.
+class Framebuffer : public Object
+{
+public:
+  Framebuffer() = default;
+  static Framebuffer Make(vtkOpenGLRenderWindow* window, int size);
+  void AttachLayer(const Texture& texture, int level, int layer) const;
+
+private:
+  using Object::Object;
+  Object Depth;
 };
 
 class VertexArray : public Object

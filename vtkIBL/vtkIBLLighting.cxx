@@ -159,10 +159,11 @@ bool vtkIBLLighting::UpdateStages(vtkOpenGLRenderWindow* window, const vtkIBLSce
   // A scene without reflections has its lamps in the irradiance map, exact enough.
   this->SpecularChain->SetLampsApart(
     this->BrightTexels && (this->Needs.MaximumRoughness > 0.0 || !this->SunInEnvironment));
-  this->CubeMap->SetMipLevelsNeeded(sampled || this->SpecularChain->GetEngine() == vtkIBLSpecularChain::Sampled ||
+  const bool samplesCube = sampled || this->Needs.RadianceCube;
+  this->CubeMap->SetMipLevelsNeeded(samplesCube || this->SpecularChain->GetEngine() == vtkIBLSpecularChain::Sampled ||
     environment->GetNumberOfFaces() == 6);
   bool ready = this->BRDFTable->Update(window);
-  if (sampled || this->Needs.NeedsMirror())
+  if (samplesCube || this->Needs.NeedsMirror())
   {
     ready = this->CubeMap->Update(window) && ready;
   }
@@ -371,6 +372,7 @@ void vtkIBLLighting::UpdateShaderText()
   const auto define = [&](bool condition, const char* name)
   { defines += condition ? std::string("#define ") + name + "\n" : std::string(); };
   define(this->Needs.NeedsMirror(), "IBL_MIRROR");
+  define(this->ReadsProbes, "IBL_PROBES");
   define(!this->Needs.Metal, "IBL_DIELECTRIC");
   define(!this->Needs.Dielectric && this->Needs.Metal, "IBL_METAL");
   define(this->SpecularOcclusion, "IBL_SPECULAR_OCCLUSION");

@@ -148,6 +148,14 @@ public:
 
   ///@{
   /**
+   * Whether GetShaderChunk() reads local probes, too, whose numbers vtkIBLRenderPass sets. Default off.
+   */
+  vtkSetMacro(ReadsProbes, bool);
+  vtkGetMacro(ReadsProbes, bool);
+  ///@}
+
+  ///@{
+  /**
    * Brings up to date in `window` what a scene needs, by default everything. Returns whether there is light to shade
    * with, be it an older one. Needs add up while the light stays the same.
    */
@@ -217,6 +225,7 @@ private:
   bool SunInEnvironment = true;
   bool SpecularOcclusion = true;
   bool HorizonOcclusion = true;
+  bool ReadsProbes = false;
   int SamplesPerPixel = 0;
   std::string ShaderDefines; // as of the last Update(), and the file under them
   std::string ShaderText;

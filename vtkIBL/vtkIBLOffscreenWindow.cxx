@@ -253,9 +253,11 @@ void vtkIBLOffscreenWindow::OpenGLInitContext()
     glEnable(GL_DEBUG_OUTPUT);
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     glDebugMessageCallback(
-      [](GLenum, GLenum, GLuint, GLenum severity, GLsizei, const GLchar* text, const void* user)
+      [](GLenum source, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* text, const void* user)
       {
-        if (severity == GL_DEBUG_SEVERITY_HIGH)
+        // Mesa gives a compiler's warnings the same weight as its errors, and only while its cache is cold.
+        const bool isWarning = source == GL_DEBUG_SOURCE_SHADER_COMPILER && type != GL_DEBUG_TYPE_ERROR;
+        if (severity == GL_DEBUG_SEVERITY_HIGH && !isWarning)
         {
           auto* window = static_cast<vtkIBLOffscreenWindow*>(const_cast<void*>(user));
           ++window->NumberOfHighSeverityMessages;

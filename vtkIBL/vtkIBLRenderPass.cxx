@@ -9,6 +9,9 @@
 #include "vtkIBLEnvironment.h"
 #include "vtkIBLGL.h"
 #include "vtkIBLLighting.h"
+#include "vtkIBLProbe.h"
+#include "vtkIBLProbeCollection.h"
+#include "vtkIBLProbeLight.h"
 #include "vtkIBLSpecularChain.h"
 
 #include "vtkCamera.h"
@@ -24,11 +27,13 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkProp3D.h"
+#include "vtkPropCollection.h"
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -42,12 +47,11 @@ namespace
 class MarkedProps
 {
 public:
-  MarkedProps(const vtkRenderState* state, vtkOpenGLRenderPass* pass)
+  MarkedProps(const std::vector<vtkProp*>& props, vtkOpenGLRenderPass* pass)
     : Pass(pass)
   {
-    for (int i = 0; i < state->GetPropArrayCount(); ++i)
+    for (vtkProp* prop : props)
     {
-      vtkProp* prop = state->GetPropArray()[i];
       if (prop->IsA("vtkVolume"))
       {
         continue;
@@ -120,6 +124,22 @@ private:
   vtkLight* Light;
 };
 
+// Lights that are switched on and go where the camera goes.
+std::vector<vtkLight*> GetCameraLights(vtkLightCollection* lights)
+{
+  std::vector<vtkLight*> found;
+  vtkCollectionSimpleIterator it;
+  lights->InitTraversal(it);
+  while (vtkLight* light = lights->GetNextLight(it))
+  {
+    if (light->GetSwitch() && !light->LightTypeIsSceneLight())
+    {
+      found.push_back(light);
+    }
+  }
+  return found;
+}
+
 double GetDeterminant3x3(const vtkMatrix4x4* matrix)
 {
   return vtkMath::Determinant3x3(matrix->Element[0], matrix->Element[1], matrix->Element[2]);
@@ -137,6 +157,7 @@ bool IsMirrored(vtkProp3D* prop, vtkCamera* camera)
 }
 
 vtkIBLRenderPass::vtkIBLRenderPass()
+  : ProbeLight(new vtkIBLProbeLight)
 {
   this->NoLight->SetLightTypeToHeadlight();
   this->NoLight->SetIntensity(0.0);
@@ -160,7 +181,9 @@ void vtkIBLRenderPass::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "DirectOcclusion: " << this->DirectOcclusion << "\n"
      << indent << "DelegatePass: " << this->DelegatePass.Get() << "\n"
      << indent << "AccumulatedSamples: " << this->AccumulatedSamples << "\n"
-     << indent << "Lighting:\n";
+     << indent << "Probes:\n";
+  this->Probes->PrintSelf(os, indent.GetNextIndent());
+  os << indent << "Lighting:\n";
   this->Lighting->PrintSelf(os, indent.GetNextIndent());
 }
 
@@ -173,6 +196,11 @@ void vtkIBLRenderPass::SetEnvironment(vtkIBLEnvironment* environment)
 vtkIBLEnvironment* vtkIBLRenderPass::GetEnvironment()
 {
   return this->Lighting->GetEnvironment();
+}
+
+vtkIBLProbeCollection* vtkIBLRenderPass::GetProbes()
+{
+  return this->Probes;
 }
 
 vtkIBLLighting* vtkIBLRenderPass::GetLighting()
@@ -199,7 +227,8 @@ void vtkIBLRenderPass::SetOutputEncoding(int encoding)
   }
   else
   {
-    this->SetShaderOption(this->OutputEncoding, encoding);
+    this->OutputEncoding = encoding;
+    this->Modified();
   }
 }
 
@@ -238,7 +267,15 @@ void vtkIBLRenderPass::Render(const vtkRenderState* state)
   this->NumberOfRenderedProps = 0;
   vtkRenderer* renderer = state->GetRenderer();
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
-  vtkIBLSceneNeeds needs = vtkIBLSceneNeeds::Of(state->GetPropArray(), state->GetPropArrayCount(), this->LightNonPBR);
+  std::vector<vtkProp*> props(state->GetPropArray(), state->GetPropArray() + state->GetPropArrayCount());
+  vtkIBLSceneNeeds needs = vtkIBLSceneNeeds::Of(props.data(), int(props.size()), this->LightNonPBR);
+  const bool hasProbes = this->Probes->GetNumberOfItems() > 0;
+  const std::vector<vtkProp*> captured = this->GetCaptured(renderer);
+  if (needs.Irradiance && !captured.empty())
+  {
+    needs.Add(vtkIBLSceneNeeds::Of(captured.data(), int(captured.size()), this->LightNonPBR));
+    needs.RadianceCube = true;
+  }
   if (this->BackgroundVisible)
   {
     needs.AddRoughness(this->BackgroundBlur, this->BackgroundBlur);
@@ -248,6 +285,7 @@ void vtkIBLRenderPass::Render(const vtkRenderState* state)
     this->RenderScene(state);
     return;
   }
+  this->Lighting->SetReadsProbes(hasProbes);
   // A selection never waits for light, but keeps the shaders that the last frame had in this window.
   const bool lit = window &&
     (renderer->GetSelector() ? this->Lit && this->Lighting->GetBRDFTable()->GetTexture().IsIn(window)
@@ -265,6 +303,11 @@ void vtkIBLRenderPass::Render(const vtkRenderState* state)
   try
   {
     this->Lighting->Activate(window);
+    if (hasProbes)
+    {
+      this->ProbeLight->Prepare(window, this->Probes);
+      this->ProbeLight->Activate();
+    }
   }
   catch (const std::exception& error)
   {
@@ -276,10 +319,22 @@ void vtkIBLRenderPass::Render(const vtkRenderState* state)
   vtkOpenGLState::ScopedglEnableDisable seamless(window->GetState(), GL_TEXTURE_CUBE_MAP_SEAMLESS);
   window->GetState()->vtkglEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
   {
-    const MarkedProps marked(state, this);
+    for (vtkProp* prop : captured)
+    {
+      if (std::find(props.begin(), props.end(), prop) == props.end())
+      {
+        props.push_back(prop);
+      }
+    }
+    const MarkedProps marked(props, this);
     const StandInLight light(renderer->GetLights(), this->NoLight);
+    if (hasProbes && !renderer->GetSelector())
+    {
+      this->UpdateProbes(state, captured);
+    }
     this->RenderScene(state);
   }
+  this->ProbeLight->Deactivate();
   this->Lighting->Deactivate();
   this->Renderer = nullptr;
 }
@@ -306,6 +361,13 @@ vtkIBLStamp vtkIBLRenderPass::GetStamp(const vtkRenderState* state)
   stamp.Add(this->Lighting->GetCubeMap()->GetBuildTime());
   stamp.Add(this->Lighting->GetSpecularChain()->GetBuildTime());
   stamp.Add(this->Lighting->GetBRDFTable()->GetBuildTime());
+  vtkCollectionSimpleIterator it;
+  this->Probes->InitTraversal(it);
+  while (vtkIBLProbe* probe = this->Probes->GetNextProbe(it))
+  {
+    stamp.Add(probe);
+  }
+  stamp.Add(this->ProbeLight->GetTime());
   double numbers[12];
   this->GetEnvironment()->GetRadianceScale(numbers);
   this->GetEnvironment()->GetEnvironmentFromWorld(numbers + 3);
@@ -361,6 +423,157 @@ void vtkIBLRenderPass::RenderScene(const vtkRenderState* state)
   }
 }
 
+//------------------------------------------------------------------------------
+// What probes that capture may show: all of the scene, in the camera's view or not.
+std::vector<vtkProp*> vtkIBLRenderPass::GetCaptured(vtkRenderer* renderer)
+{
+  bool anyCaptures = false;
+  vtkCollectionSimpleIterator it;
+  this->Probes->InitTraversal(it);
+  while (vtkIBLProbe* probe = this->Probes->GetNextProbe(it))
+  {
+    anyCaptures = anyCaptures || !probe->GetEnvironment();
+  }
+  std::vector<vtkProp*> captured;
+  vtkPropCollection* props = renderer->GetViewProps();
+  props->InitTraversal(it);
+  while (vtkProp* prop = anyCaptures ? props->GetNextProp(it) : nullptr)
+  {
+    if (prop->GetVisibility() && vtkIBLProbe::IsCaptured(prop) && !prop->IsA("vtkVolume") && !prop->IsA("vtkActor2D"))
+    {
+      captured.push_back(prop);
+    }
+  }
+  return captured;
+}
+
+void vtkIBLRenderPass::UpdateProbes(const vtkRenderState* state, const std::vector<vtkProp*>& captured)
+{
+  vtkRenderer* renderer = state->GetRenderer();
+  vtkIBLProbeLight::Scene scene;
+  scene.Window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  scene.Captured = captured;
+  for (int i = 0; i < state->GetPropArrayCount(); ++i)
+  {
+    vtkProp* prop = state->GetPropArray()[i];
+    const double* bounds = prop->GetBounds();
+    if (bounds && vtkIBLSceneNeeds::Of(&prop, 1, this->LightNonPBR).Irradiance)
+    {
+      scene.LitBounds.push_back({ bounds[0], bounds[1], bounds[2], bounds[3], bounds[4], bounds[5] });
+    }
+  }
+  scene.Light.Add(this->GetShaderStageMTime());
+  scene.Light.Add(this->GetEnvironment()->GetRadianceTime());
+  double numbers[12];
+  this->GetEnvironment()->GetRadianceScale(numbers);
+  this->GetEnvironment()->GetEnvironmentFromWorld(numbers + 3);
+  scene.Light.Add(numbers, 12);
+  scene.StoredScale = this->Lighting->GetSpecularChain()->GetStoredScale() * *std::max_element(numbers, numbers + 3);
+  const std::vector<vtkLight*> ofTheCamera = GetCameraLights(renderer->GetLights());
+  vtkCollectionSimpleIterator it;
+  renderer->GetLights()->InitTraversal(it);
+  while (vtkLight* light = renderer->GetLights()->GetNextLight(it))
+  {
+    if (std::find(ofTheCamera.begin(), ofTheCamera.end(), light) == ofTheCamera.end())
+    {
+      scene.Light.AddLight(light);
+    }
+  }
+  scene.Draw = [&](vtkCamera* camera, const vtkIBLGL::Framebuffer& target, int size, const std::vector<vtkProp*>& props,
+                 bool probes)
+  {
+    vtkOpenGLState* gl = scene.Window->GetState();
+    const vtkSmartPointer<vtkCamera> own = renderer->GetActiveCamera();
+    std::vector<double> intensities;
+    for (vtkLight* light : ofTheCamera)
+    {
+      intensities.push_back(light->GetIntensity());
+      light->SetIntensity(0.0);
+    }
+    renderer->SetActiveCamera(camera);
+    this->CapturesProbe = true;
+    this->IsLitByProbes = probes;
+    gl->Push();
+    gl->PushFramebufferBindings();
+    gl->vtkglBindFramebuffer(GL_FRAMEBUFFER, target.Id());
+    this->DrawCapture(renderer, size, props);
+    gl->PopFramebufferBindings();
+    gl->Pop();
+    this->CapturesProbe = false;
+    this->IsLitByProbes = true;
+    renderer->SetActiveCamera(own);
+    for (std::size_t i = 0; i < ofTheCamera.size(); ++i)
+    {
+      ofTheCamera[i]->SetIntensity(intensities[i]);
+    }
+    vtkIBLGL::CheckErrors("capturing a probe");
+  };
+  try
+  {
+    this->ProbeLight->Update(scene, this->Lighting->GetStatistics());
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+  }
+}
+
+// One face. Translucent surfaces are blended in the order in which they come.
+void vtkIBLRenderPass::DrawCapture(vtkRenderer* renderer, int size, const std::vector<vtkProp*>& props)
+{
+  vtkOpenGLState* gl = static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow())->GetState();
+  gl->vtkglViewport(0, 0, size, size);
+  gl->vtkglScissor(0, 0, size, size);
+  gl->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl->vtkglDepthMask(GL_TRUE);
+  gl->vtkglEnable(GL_DEPTH_TEST);
+  gl->vtkglDepthFunc(GL_LEQUAL);
+  gl->vtkglDisable(GL_BLEND);
+  gl->vtkglClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+  gl->vtkglClearDepth(1.0);
+  gl->vtkglClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  this->Background->SetBlur(0.0);
+  this->Background->SetSharpLevel(
+    std::log2(std::max(double(this->Lighting->GetCubeMap()->GetOutputFaceSize()) / size, 1.0)));
+  this->Background->SetDisplayEncoding(false);
+  this->Background->RenderOpaqueGeometry(renderer);
+  this->Background->SetSharpLevel(0.0);
+  for (vtkProp* prop : props)
+  {
+    prop->RenderOpaqueGeometry(renderer);
+  }
+  gl->vtkglEnable(GL_BLEND);
+  gl->vtkglBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  for (vtkProp* prop : props)
+  {
+    if (prop->HasTranslucentPolygonalGeometry())
+    {
+      prop->RenderTranslucentPolygonalGeometry(renderer);
+    }
+  }
+}
+
+vtkSmartPointer<vtkImageData> vtkIBLRenderPass::CaptureProbe(vtkRenderer* renderer, vtkIBLProbe* probe)
+{
+  auto* window = renderer ? vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow()) : nullptr;
+  if (!window || renderer->GetPass() != this || !probe || !this->Probes->IsItemPresent(probe))
+  {
+    vtkErrorMacro("CaptureProbe() takes a renderer in a window, whose pass is this one, and a probe of GetProbes().");
+    return nullptr;
+  }
+  this->ProbeLight->SetWanted(probe);
+  probe->Capture();
+  window->Render();
+  this->ProbeLight->SetWanted(nullptr);
+  vtkSmartPointer<vtkImageData> radiance = this->ProbeLight->Read(probe);
+  if (!radiance)
+  {
+    vtkErrorMacro("The probe has no light: there is no lit surface in sight, or see the errors before.");
+  }
+  return radiance;
+}
+
+//------------------------------------------------------------------------------
 void vtkIBLRenderPass::DrawScene(const vtkRenderState* state)
 {
   vtkRenderer* renderer = state->GetRenderer();
@@ -412,6 +625,7 @@ void vtkIBLRenderPass::DrawScene(const vtkRenderState* state)
 void vtkIBLRenderPass::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Lighting->ReleaseGraphicsResources(window);
+  this->ProbeLight->ReleaseGraphicsResources();
   this->Background->ReleaseGraphicsResources(window);
   for (auto& accumulation : this->Accumulations)
   {
@@ -434,10 +648,6 @@ vtkSmartPointer<vtkImageData> vtkIBLRenderPass::CaptureRadiance(vtkRenderer* ren
   }
   // No Modified(): the scene that a display-encoded mean is of stays the same.
   const int encoding = std::exchange(this->OutputEncoding, Linear);
-  if (encoding != Linear)
-  {
-    this->ShaderTime.Modified();
-  }
   auto image = vtkSmartPointer<vtkImageData>::New();
   this->Captured = image;
   this->Capturing = renderer;
@@ -448,11 +658,7 @@ vtkSmartPointer<vtkImageData> vtkIBLRenderPass::CaptureRadiance(vtkRenderer* ren
   {
     this->Accumulations[Linear]->ReleaseGraphicsResources();
   }
-  if (encoding != Linear)
-  {
-    this->OutputEncoding = encoding;
-    this->ShaderTime.Modified();
-  }
+  this->OutputEncoding = encoding;
   return image;
 }
 
@@ -519,12 +725,12 @@ const char* const NonPBRMaterial =
   "  iblSurface.metallic = 0.0;\n"
   "  iblSurface.baseF0 = 0.08 * max(specularColor.r, max(specularColor.g, specularColor.b));\n";
 
-const char* const AddAll = "  color += iblRadianceScale * (iblLight.diffuse + iblLight.specular);\n";
+const char* const AddAll = "  color += IBL_OUTGOING_SCALE * (iblLight.diffuse + iblLight.specular);\n";
 
 // What is reflected is not let through: a reflection keeps its strength on a surface however clear.
 const char* const AddTranslucent =
   "  float iblOpacity = mix(opacity, 1.0, clamp(dot(iblLight.reflectance, vec3(1.0 / 3.0)), 0.0, 1.0));\n"
-  "  color = (opacity * (color + iblRadianceScale * iblLight.diffuse) + iblRadianceScale * iblLight.specular) / "
+  "  color = (opacity * (color + IBL_OUTGOING_SCALE * iblLight.diffuse) + IBL_OUTGOING_SCALE * iblLight.specular) / "
   "max(iblOpacity, 1e-6);\n"
   "  opacity = iblOpacity;\n";
 }
@@ -553,29 +759,43 @@ bool vtkIBLRenderPass::PostReplaceShaderValues(
       Replace(fragmentShader, "  color = mix(color, color * ao, aoStrengthUniform);\n", "");
     }
     Replace(fragmentShader, emission, emission + MakePBRMaterial(fragmentShader, bumped, features) + evaluate + add);
-    if (this->OutputEncoding == Linear)
+    const std::string encode = "color = pow(color, vec3(1.0/2.2));";
+    const std::string encode97 = "gl_FragData[0].rgb = pow(gl_FragData[0].rgb, vec3(1.0/2.2));";
+    for (const std::string& line : { encode, encode97 })
     {
-      Replace(fragmentShader, "color = pow(color, vec3(1.0/2.2));", "");
-      Replace(fragmentShader, "gl_FragData[0].rgb = pow(gl_FragData[0].rgb, vec3(1.0/2.2));", ""); // 9.7
+      Replace(fragmentShader, line, "if (!iblLinear) { " + line + " }");
     }
   }
   else if (this->LightNonPBR && Contains(fragmentShader, "vec4(ambientColor + diffuse + specular, opacity)"))
   {
     Replace(fragmentShader, "//VTK::Light::Impl",
       "\n  {\n  vec3 color = pow(max(gl_FragData[0].rgb, vec3(0.0)), vec3(2.2));\n" + std::string(NonPBRMaterial) +
-        evaluate + add + "  gl_FragData[0] = vec4(" +
-        (this->OutputEncoding == Linear ? "color" : "pow(color, vec3(1.0 / 2.2))") +
-        ", opacity);\n  }\n  //VTK::Light::Impl");
+        evaluate + add +
+        "  gl_FragData[0] = vec4(iblLinear ? color : pow(color, vec3(1.0 / 2.2)), opacity);\n  }\n  "
+        "//VTK::Light::Impl");
   }
   else
   {
+    // What is not lit has the screen's colours, of which a probe makes light.
+    const std::string last = "  if (gl_FragData[0].a <= 0.0)";
+    if (this->Lighting->GetReadsProbes() &&
+      Replace(fragmentShader, last,
+        "  if (iblDecodes) { gl_FragData[0].rgb = pow(max(gl_FragData[0].rgb, vec3(0.0)), vec3(2.2)); }\n" + last))
+    {
+      Replace(fragmentShader, "void main()", "uniform bool iblDecodes;\nvoid main()");
+    }
     return true;
   }
   // VTK turns the normals of back faces, and takes all faces of a mirrored actor for such.
   Replace(fragmentShader, "(gl_FrontFacing == false) { normalVCVSOutput",
     "(gl_FrontFacing == iblMirrored) { normalVCVSOutput");
+  if (this->Lighting->GetReadsProbes())
+  {
+    Replace(
+      fragmentShader, "//VTK::System::Dec", "//VTK::System::Dec\n#extension GL_ARB_texture_cube_map_array : enable");
+  }
   Replace(fragmentShader, "void main()",
-    "uniform bool iblMirrored;\n" + this->Lighting->GetShaderChunk(features) + "void main()");
+    "uniform bool iblMirrored;\nuniform bool iblLinear;\n" + this->Lighting->GetShaderChunk(features) + "void main()");
   return true;
 }
 
@@ -590,6 +810,18 @@ bool vtkIBLRenderPass::SetShaderParameters(
   if (this->Renderer && program->IsUniformUsed("iblRadianceScale"))
   {
     this->Lighting->SetShaderParameters(program, this->Renderer, this->FirstSample);
+  }
+  if (this->Renderer && program->IsUniformUsed("iblProbeCount"))
+  {
+    this->ProbeLight->SetShaderParameters(program, this->Renderer, this->IsLitByProbes ? prop->GetBounds() : nullptr);
+  }
+  for (const auto& [name, value] : { std::pair("iblLinear", this->CapturesProbe || this->OutputEncoding == Linear),
+         std::pair("iblDecodes", this->CapturesProbe) })
+  {
+    if (program->IsUniformUsed(name))
+    {
+      program->SetUniformi(name, value);
+    }
   }
   return true;
 }

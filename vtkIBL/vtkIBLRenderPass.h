@@ -42,11 +42,15 @@
 #include "vtkSmartPointer.h"
 
 #include <memory> // For std::unique_ptr
+#include <vector> // For std::vector
 
 class vtkIBLAccumulation;
 class vtkIBLBackground;
 class vtkIBLEnvironment;
 class vtkIBLLighting;
+class vtkIBLProbe;
+class vtkIBLProbeCollection;
+class vtkIBLProbeLight;
 class vtkIBLStamp;
 class vtkImageData;
 class vtkLight;
@@ -70,6 +74,18 @@ public:
    * The stages behind the picture, with their settings and what they cost.
    */
   vtkIBLLighting* GetLighting();
+
+  /**
+   * Local light: what is in here lights surfaces around it, instead of the environment. See vtkIBLProbe.
+   */
+  vtkIBLProbeCollection* GetProbes();
+
+  /**
+   * Captures a probe of `renderer`'s scene, which is then rendered once, and returns what it sees: n x n x 6 float RGB,
+   * radiance, GL's faces, row 0 at t = -1, axes the world's. `renderer`'s pass must be this one, and the probe in
+   * GetProbes(). Null, with an error, when that fails.
+   */
+  vtkSmartPointer<vtkImageData> CaptureProbe(vtkRenderer* renderer, vtkIBLProbe* probe);
 
   ///@{
   /**
@@ -179,6 +195,9 @@ private:
 
   void RenderScene(const vtkRenderState* state);
   void DrawScene(const vtkRenderState* state);
+  std::vector<vtkProp*> GetCaptured(vtkRenderer* renderer);
+  void UpdateProbes(const vtkRenderState* state, const std::vector<vtkProp*>& captured);
+  void DrawCapture(vtkRenderer* renderer, int size, const std::vector<vtkProp*>& props);
   bool Accumulates(const vtkRenderState* state) const;
   vtkIBLStamp GetStamp(const vtkRenderState* state);
 
@@ -186,6 +205,8 @@ private:
   void SetShaderOption(T& option, T value);
 
   vtkNew<vtkIBLLighting> Lighting;
+  vtkNew<vtkIBLProbeCollection> Probes;
+  std::unique_ptr<vtkIBLProbeLight> ProbeLight;
   vtkNew<vtkIBLBackground> Background;
   vtkNew<vtkLight> NoLight;
   vtkSmartPointer<vtkRenderPass> DelegatePass;
@@ -201,6 +222,8 @@ private:
   std::unique_ptr<vtkIBLAccumulation> Accumulations[2]; // by OutputEncoding
   int AccumulatedSamples = 0;
   int FirstSample = 0;                    // of this frame, in the mean
+  bool CapturesProbe = false;             // what is drawn now is for a probe...
+  bool IsLitByProbes = true;              // ... that shows what probes light, or not yet
   vtkRenderer* Capturing = nullptr;       // while CaptureRadiance() runs: of this renderer...
   vtkSmartPointer<vtkImageData> Captured; // ... the picture
 };

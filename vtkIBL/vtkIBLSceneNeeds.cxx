@@ -22,6 +22,7 @@ void vtkIBLSceneNeeds::AddRoughness(double minimum, double maximum)
 void vtkIBLSceneNeeds::Add(const vtkIBLSceneNeeds& other)
 {
   this->Irradiance = this->Irradiance || other.Irradiance;
+  this->RadianceCube = this->RadianceCube || other.RadianceCube;
   this->Metal = this->Metal || other.Metal;
   this->Dielectric = this->Dielectric || other.Dielectric;
   this->AddRoughness(other.MinimumRoughness, other.MaximumRoughness);

@@ -38,12 +38,17 @@ struct VTKIBL_EXPORT vtkIBLSceneNeeds
   ///@}
 
   /**
+   * The radiance cube itself is read, with its mip levels: by samples, or by what shows the sky small.
+   */
+  bool RadianceCube = false;
+
+  /**
    * Whether a reflection is sharper than the first layer, so that the mirror is read.
    */
   bool NeedsMirror() const;
 
   bool HasReflections() const { return this->MinimumRoughness <= this->MaximumRoughness; }
-  bool IsNothing() const { return !this->Irradiance && !this->HasReflections(); }
+  bool IsNothing() const { return !this->Irradiance && !this->HasReflections() && !this->RadianceCube; }
   void AddRoughness(double minimum, double maximum);
   void Add(const vtkIBLSceneNeeds& other);
 

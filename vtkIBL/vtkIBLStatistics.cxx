@@ -28,7 +28,7 @@ vtkIBLStatistics::vtkIBLStatistics()
 const char* vtkIBLStatistics::GetKindName(int kind)
 {
   constexpr const char* names[] = { "read", "cache hit", "cache write", "harmonics", "cube faces", "cube map", "layers",
-    "irradiance map", "irradiance coefficients", "BRDF table", "total" };
+    "irradiance map", "irradiance coefficients", "BRDF table", "probe faces", "probe layers", "total" };
   static_assert(sizeof(names) / sizeof(names[0]) == Total + 1, "each kind has a name");
   return kind >= 0 && kind <= Total ? names[kind] : "(none)";
 }

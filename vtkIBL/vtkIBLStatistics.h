@@ -38,7 +38,9 @@ public:
     IrradianceMap,          ///< made in one go with layers, its time is theirs
     IrradianceCoefficients, ///< vtkIBLIrradiance
     BRDFTable,
-    Total ///< all of these
+    ProbeFaces,  ///< of the scene, captured by vtkIBLProbe
+    ProbeLayers, ///< of probes' light
+    Total        ///< all of these
   };
   static const char* GetKindName(int kind);
 

@@ -107,9 +107,9 @@ TEST_F(ShaderPrograms, KernelsAreValid)
 TEST_F(ShaderPrograms, FormulasAreValidInTheirOrder)
 {
   std::string text = "#version 450\n";
-  for (const char* name :
-    { "vtkIBLShared.glsl", "vtkIBLDirectionFunctions.glsl", "vtkIBLSamplingFunctions.glsl", "vtkIBLBRDFFunctions.glsl",
-      "vtkIBLEnergyFunctions.glsl", "vtkIBLHarmonicsFunctions.glsl", "vtkIBLLadderFunctions.glsl" })
+  for (const char* name : { "vtkIBLShared.glsl", "vtkIBLDirectionFunctions.glsl", "vtkIBLSamplingFunctions.glsl",
+         "vtkIBLBRDFFunctions.glsl", "vtkIBLEnergyFunctions.glsl", "vtkIBLHarmonicsFunctions.glsl",
+         "vtkIBLLadderFunctions.glsl", "vtkIBLParallaxFunctions.glsl" })
   {
     for (const vtkIBLShaderText* entry = vtkIBLShaderTexts; entry->Name; ++entry)
     {
@@ -130,14 +130,16 @@ TEST_F(ShaderPrograms, ChunksAreValidInVTKsShaders)
   for (const std::string& name : chunks)
   {
     for (const std::string defines : { "#define IBL_LAMPS 0\n#define IBL_ENERGY IBL_MULTIPLE_SCATTER\n",
-           "#define IBL_LAMPS 8\n#define IBL_ENERGY IBL_SINGLE_SCATTER\n#define IBL_MIRROR\n#define IBL_COAT\n",
+           "#define IBL_LAMPS 8\n#define IBL_ENERGY IBL_SINGLE_SCATTER\n#define IBL_MIRROR\n#define IBL_COAT\n#define "
+           "IBL_PROBES\n",
            "#define IBL_LAMPS 1\n#define IBL_ENERGY IBL_CLASSIC\n#define IBL_METAL\n#define IBL_ANISOTROPY\n",
            "#define IBL_LAMPS 2\n#define IBL_ENERGY IBL_MULTIPLE_SCATTER\n#define IBL_DIELECTRIC\n#define "
            "IBL_BUMPED\n#define IBL_HORIZON_OCCLUSION\n"
            "#define IBL_ANISOTROPY\n#define IBL_COAT\n#define IBL_OCCLUSION\n#define IBL_SPECULAR_OCCLUSION\n" })
     {
-      const std::string text = "#version 150\n" + defines + "in vec4 vertexVC;\nout vec4 fragOutput0;\n" +
-        vtkIBLAssembleChunk(name) + "void main()\n{\n  fragOutput0 = vertexVC;\n}\n";
+      const std::string text = "#version 150\n#extension GL_ARB_texture_cube_map_array : enable\n" + defines +
+        "in vec4 vertexVC;\nout vec4 fragOutput0;\n" + vtkIBLAssembleChunk(name) +
+        "void main()\n{\n  fragOutput0 = vertexVC;\n}\n";
       EXPECT_EQ(this->Complaints(name, "frag", text), "") << name << " " << defines;
     }
   }

@@ -4,6 +4,8 @@
 #include "TestScene.h"
 
 #include "vtkIBLCubeMap.h"
+#include "vtkIBLProbe.h"
+#include "vtkIBLProbeCollection.h"
 #include "vtkIBLSpecularChain.h"
 
 #include <vtkCallbackCommand.h>
@@ -192,8 +194,8 @@ TEST_F(TestRenderPassGL, AddsLightAndLeavesTheRestToVTK)
 }
 
 // The programs that VTK puts together with our text in them are valid GLSL to Khronos' own compiler, not only to the
-// driver at hand; fast and sampled, display and linear, plain and with a coat. Mutant: bitfieldReverse, which GLSL 1.50
-// lacks and Mesa may let pass.
+// driver at hand; fast and sampled, under the sky and among probes, plain and with a coat. Mutants: bitfieldReverse,
+// which GLSL 1.50 lacks and Mesa may let pass; cube map arrays without their extension.
 TEST_F(TestRenderPassGL, MakesValidPrograms)
 {
   if (std::system("glslangValidator --version > /dev/null 2>&1") != 0)
@@ -217,17 +219,18 @@ TEST_F(TestRenderPassGL, MakesValidPrograms)
   };
   for (int samples : { 0, 16 })
   {
-    for (int encoding : { vtkIBLRenderPass::Display, vtkIBLRenderPass::Linear })
+    for (int probes : { 0, 1 })
     {
+      vtkNew<vtkIBLProbe> probe;
+      probes ? this->Pass->GetProbes()->AddItem(probe) : this->Pass->GetProbes()->RemoveAllItems();
       for (double coat : { 0.0, 0.5 })
       {
         this->Pass->GetLighting()->SetSamplesPerPixel(samples);
-        this->Pass->SetOutputEncoding(encoding);
         this->Actor->GetProperty()->SetCoatStrength(coat);
         this->Render(this->Pass);
         ASSERT_NE(source.find("iblEnvironmentLight("), std::string::npos);
-        EXPECT_EQ(source.find("pow(color, vec3(1.0/2.2))") == std::string::npos, encoding == vtkIBLRenderPass::Linear);
-        EXPECT_TRUE(isValid()) << "samples " << samples << " coat " << coat;
+        EXPECT_EQ(source.find("#define IBL_PROBES") != std::string::npos, probes != 0);
+        EXPECT_TRUE(isValid()) << "samples " << samples << " probes " << probes << " coat " << coat;
       }
     }
   }

@@ -3,6 +3,8 @@
 // Linear RGB radiance over all directions, in memory that somebody else owns.
 #pragma once
 
+#include "vtkIBLShared.glsl"
+
 #include <cstddef>
 
 struct vtkIBLRadianceImage
@@ -25,7 +27,7 @@ struct vtkIBLRadianceFaults
 };
 
 /// The brightest radiance taken at its word. The sun's disc is 2e9 cd/m2; a larger value is a broken texel.
-constexpr float vtkIBLLargestRadiance = 1e10f;
+constexpr float vtkIBLLargestRadiance = IBL_LARGEST_RADIANCE;
 
 /// Negative channels become 0. A texel that is not finite or too large becomes the mean of its sound neighbours among
 /// the eight around it (black if there are none), so that one broken texel neither darkens nor dominates.

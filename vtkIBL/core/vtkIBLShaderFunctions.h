@@ -30,5 +30,6 @@ struct ShaderFunctions
 #include "vtkIBLEnergyFunctions.inl"
 #include "vtkIBLHarmonicsFunctions.inl"
 #include "vtkIBLLadderFunctions.inl"
+#include "vtkIBLParallaxFunctions.inl"
 };
 }

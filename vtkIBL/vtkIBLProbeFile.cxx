@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: Copyright (c) vtkIBL authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkIBLProbeFile.h"
+
+#include "vtkIBLEnvironment.h"
+#include "vtkIBLProbe.h"
+
+#include "vtkImageData.h"
+#include "vtkNew.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include <array>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace
+{
+constexpr int LargestFaceSize = 4096;
+const char* const FaceNames[] = { "+X", "-X", "+Y", "-Y", "+Z", "-Z" };
+
+// All that a file says of a probe.
+struct Facts
+{
+  std::array<double, 3> Position, Orientation;
+  std::array<double, 6> Bounds, Influence;
+  std::array<double, 1> Proxy, BlendDistance, Intensity;
+};
+
+template <typename TFacts, typename Visitor>
+void Visit(TFacts& facts, bool ownInfluence, const Visitor& visit)
+{
+  visit("vtkIBL.probe.position", facts.Position);
+  visit("vtkIBL.probe.orientation", facts.Orientation);
+  visit("vtkIBL.probe.bounds", facts.Bounds);
+  visit("vtkIBL.probe.proxy", facts.Proxy);
+  visit("vtkIBL.probe.blendDistance", facts.BlendDistance);
+  visit("vtkIBL.probe.intensity", facts.Intensity);
+  if (ownInfluence)
+  {
+    visit("vtkIBL.probe.influence", facts.Influence);
+  }
+}
+
+Imf::FrameBuffer MakeFrameBuffer(float* rgb, int n)
+{
+  Imf::FrameBuffer buffer;
+  for (int c = 0; c < 3; ++c)
+  {
+    buffer.insert(std::string(1, "RGB"[c]),
+      Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(rgb + c), 3 * sizeof(float), 3 * sizeof(float) * std::size_t(n)));
+  }
+  return buffer;
+}
+}
+
+void vtkIBLWriteProbeFile(const char* fileName, vtkIBLProbe& probe, vtkImageData* radiance)
+{
+  int size[3] = {};
+  if (radiance)
+  {
+    radiance->GetDimensions(size);
+  }
+  if (!radiance || size[0] != size[1] || size[2] != 6 || radiance->GetNumberOfScalarComponents() != 3 ||
+    radiance->GetScalarType() != VTK_FLOAT)
+  {
+    throw std::runtime_error("a probe's radiance is n x n x 6 float RGB, as CaptureProbe() gives it; this is something "
+                             "else, and nothing was written");
+  }
+  Facts facts{};
+  probe.GetPosition(facts.Position.data());
+  probe.GetOrientation(facts.Orientation.data());
+  probe.GetBounds(facts.Bounds.data());
+  probe.GetInfluenceBounds(facts.Influence.data());
+  facts.Proxy[0] = probe.GetProxy();
+  facts.BlendDistance[0] = probe.GetBlendDistance();
+  facts.Intensity[0] = probe.GetIntensity();
+
+  std::vector<Imf::Header> headers;
+  for (const char* face : FaceNames)
+  {
+    Imf::Header header(size[0], size[1]);
+    header.setName(face);
+    header.setType(Imf::SCANLINEIMAGE);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    for (const char* channel : { "R", "G", "B" })
+    {
+      header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
+    }
+    headers.push_back(header);
+  }
+  Visit(facts, probe.HasInfluenceBounds(),
+    [&](const char* name, const auto& numbers)
+    {
+      std::ostringstream text;
+      text.imbue(std::locale::classic());
+      text << std::setprecision(std::numeric_limits<double>::max_digits10);
+      for (double number : numbers)
+      {
+        text << number << " ";
+      }
+      headers.front().insert(name, Imf::StringAttribute(text.str()));
+    });
+  Imf::MultiPartOutputFile file(fileName, headers.data(), int(headers.size()));
+  for (int face = 0; face < 6; ++face)
+  {
+    Imf::OutputPart part(file, face);
+    part.setFrameBuffer(MakeFrameBuffer(static_cast<float*>(radiance->GetScalarPointer(0, 0, face)), size[0]));
+    part.writePixels(size[1]);
+  }
+}
+
+void vtkIBLReadProbeFile(const char* fileName, vtkIBLProbe& probe)
+{
+  Imf::MultiPartInputFile file(fileName);
+  const auto fail = [&](const std::string& what) {
+    throw std::runtime_error(std::string(fileName) + " " + what + "; give a file that vtkIBLProbe::WriteFile() wrote");
+  };
+  if (file.parts() != 6)
+  {
+    fail("has " + std::to_string(file.parts()) + " parts, a probe's file has six");
+  }
+  const Imath::Box2i window = file.header(0).dataWindow();
+  const long long n = 1LL + window.max.x - window.min.x;
+  for (int face = 0; face < 6; ++face)
+  {
+    const Imf::Header& header = file.header(face);
+    if (header.dataWindow() != window || window.min != Imath::V2i(0, 0) || n != 1LL + window.max.y || n < 1 ||
+      n > LargestFaceSize || !header.channels().findChannel("R") || !header.channels().findChannel("G") ||
+      !header.channels().findChannel("B"))
+    {
+      fail("has a part that is no RGB face of up to " + std::to_string(LargestFaceSize) + "^2 texels like the others");
+    }
+  }
+  const bool ownInfluence = file.header(0).findTypedAttribute<Imf::StringAttribute>("vtkIBL.probe.influence");
+  Facts facts{};
+  Visit(facts, ownInfluence,
+    [&](const char* name, auto& numbers)
+    {
+      const auto* attribute = file.header(0).findTypedAttribute<Imf::StringAttribute>(name);
+      std::istringstream text(attribute ? attribute->value() : std::string());
+      text.imbue(std::locale::classic());
+      for (double& number : numbers)
+      {
+        if (!(text >> number) || !std::isfinite(number))
+        {
+          fail("has no " + std::string(name) + " of " + std::to_string(numbers.size()) + " numbers in its header");
+        }
+      }
+    });
+  for (const auto* box : { &facts.Bounds, ownInfluence ? &facts.Influence : &facts.Bounds })
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      if (!((*box)[2 * i + 1] > (*box)[2 * i]))
+      {
+        fail("has bounds that enclose nothing");
+      }
+    }
+  }
+  if (facts.Intensity[0] < 0.0)
+  {
+    fail("has an intensity below 0");
+  }
+  vtkNew<vtkImageData> radiance;
+  radiance->SetDimensions(int(n), int(n), 6);
+  radiance->AllocateScalars(VTK_FLOAT, 3);
+  for (int face = 0; face < 6; ++face)
+  {
+    Imf::InputPart part(file, face);
+    part.setFrameBuffer(MakeFrameBuffer(static_cast<float*>(radiance->GetScalarPointer(0, 0, face)), int(n)));
+    part.readPixels(0, int(n) - 1);
+  }
+
+  probe.SetPosition(facts.Position[0], facts.Position[1], facts.Position[2]);
+  probe.SetOrientation(facts.Orientation[0], facts.Orientation[1], facts.Orientation[2]);
+  probe.SetBounds(facts.Bounds.data());
+  probe.SetProxy(int(facts.Proxy[0]));
+  probe.SetBlendDistance(facts.BlendDistance[0]);
+  probe.SetIntensity(facts.Intensity[0]);
+  ownInfluence ? probe.SetInfluenceBounds(facts.Influence.data()) : probe.SetInfluenceToBounds();
+  vtkNew<vtkIBLEnvironment> light;
+  light->SetInputData(radiance);
+  probe.SetEnvironment(light);
+}
