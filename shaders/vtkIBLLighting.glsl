@@ -17,29 +17,28 @@ uniform samplerCubeArray iblProbeOddLayers;
 uniform samplerCubeArray iblProbeEvenLayers;
 uniform float iblProbeLayers; // number of the last layer
 
-// A probe's light through the lobe at `position` on the ladder, around directionVC from positionVC. A wide lobe is not
-// turned by parallax as a narrow one is.
+// A probe's light through the lobe at `position` on the ladder, around directionVC from positionVC. (To turn wide lobes less by parallax,
+// as Lagarde & de Rousiers 2014 do, is further from the integral at any roughness.)
 vec3 iblProbeReflection(iblProbe probe, vec3 positionVC, vec3 directionVC, float position)
 {
   vec3 unit = iblTransform(probe.unitFromView, vec4(positionVC, 1.0));
   vec4 parallax = iblParallaxDirection(probe, unit, directionVC);
   float roughness = iblPerceptualRoughnessFromPosition(position);
-  vec3 straight = iblTransform(probe.cubeFromUnit, vec4(iblTransform(probe.unitFromView, vec4(directionVC, 0.0)), 0.0));
-  vec3 direction = mix(parallax.xyz / max(length(parallax.xyz), 1e-20), straight / max(length(straight), 1e-20), roughness);
   float at = iblLayerFromPosition(iblLadderPosition(iblRoughnessFromProbe(roughness, parallax.w)), iblProbeLayers);
   iblLayerTaps taps = iblFindLayer(at, iblProbeLayers);
-  vec3 even = textureLod(iblProbeEvenLayers, vec4(direction, probe.use.x), taps.even).rgb;
+  vec3 even = textureLod(iblProbeEvenLayers, vec4(parallax.xyz, probe.use.x), taps.even).rgb;
 #ifdef IBL_MIRROR
-  even = taps.isMirror ? textureLod(iblProbeRadiance, vec4(direction, probe.use.x), 0.0).rgb / probe.scale.w : even;
+  even = taps.isMirror ? textureLod(iblProbeRadiance, vec4(parallax.xyz, probe.use.x), 0.0).rgb / probe.scale.w : even;
 #endif
-  vec3 odd = textureLod(iblProbeOddLayers, vec4(direction, probe.use.x), taps.odd).rgb;
+  vec3 odd = textureLod(iblProbeOddLayers, vec4(parallax.xyz, probe.use.x), taps.odd).rgb;
   return probe.scale.rgb * mix(even, odd, taps.oddShare);
 }
 
-// Irradiance over pi: the roughest layer, which is an even one, along the normal.
-vec3 iblProbeIrradiance(iblProbe probe, vec3 normalVC)
+// Irradiance over pi: the roughest layer, which is an even one.
+vec3 iblProbeIrradiance(iblProbe probe, vec3 positionVC, vec3 normalVC)
 {
-  vec3 direction = iblTransform(probe.cubeFromUnit, vec4(iblTransform(probe.unitFromView, vec4(normalVC, 0.0)), 0.0));
+  vec3 unit = iblTransform(probe.unitFromView, vec4(positionVC, 1.0));
+  vec3 direction = iblParallaxDirection(probe, unit, normalVC).xyz;
   return probe.scale.rgb * textureLod(iblProbeEvenLayers, vec4(direction, probe.use.x), 0.5 * iblProbeLayers - 1.0).rgb;
 }
 
@@ -68,7 +67,7 @@ iblDiffuse iblDiffuseLight(iblBoundary boundary, vec3 viewVC)
 #ifdef IBL_PROBES
   for (int i = 0; i < iblProbeCount; ++i)
   {
-    light.layers += boundary.probeShares[i] * iblProbeIrradiance(iblGetProbe(i), boundary.normal);
+    light.layers += boundary.probeShares[i] * iblProbeIrradiance(iblGetProbe(i), boundary.position, boundary.normal);
   }
 #endif
   light.irradiance = light.layers;

@@ -41,10 +41,9 @@ float iblInfluence(vec3 point, vec3 steepness, bool isBall)
 }
 
 // Roughness of the lobe that covers, from the probe, what one of perceptualRoughness covers from a surface that is `ratio` times as
-// far from there: GGX's width is its alpha. A wide lobe sees more than one place, so at 1 nothing is changed (after Lagarde & de
-// Rousiers 2014, section 4.9.5).
+// far from there: GGX's width is its alpha (Lagarde & de Rousiers 2014, section 4.9.5, but for their way back at roughness 1, which is
+// further from the integral).
 float iblRoughnessFromProbe(float perceptualRoughness, float ratio)
 {
-  float seen = min(perceptualRoughness * sqrt(ratio), 1.0);
-  return seen + (perceptualRoughness - seen) * perceptualRoughness;
+  return min(perceptualRoughness * sqrt(ratio), 1.0);
 }

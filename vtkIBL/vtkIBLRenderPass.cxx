@@ -508,6 +508,10 @@ void vtkIBLRenderPass::UpdateProbes(const vtkRenderState* state, const std::vect
     }
     vtkIBLGL::CheckErrors("capturing a probe");
   };
+  // Mappers ask the renderer how many lights there are, and that is counted here.
+  this->ClearLights(renderer);
+  this->UpdateLightGeometry(renderer);
+  this->UpdateLights(renderer);
   try
   {
     this->ProbeLight->Update(scene, this->Lighting->GetStatistics());

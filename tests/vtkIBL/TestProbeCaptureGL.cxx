@@ -13,11 +13,16 @@
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCubeSource.h>
+#include <vtkHardwareSelector.h>
 #include <vtkLight.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
+#include <vtkReverseSense.h>
+#include <vtkSelection.h>
 #include <vtkSphereSource.h>
+#include <vtkTexture.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <limits>
 
@@ -199,4 +204,216 @@ TEST_F(TestProbeCaptureGL, OnlyFacesThatChangedAreCaptured)
   EXPECT_EQ(scene.Render(), 6);
   EXPECT_EQ(scene.Render(), 0);
   EXPECT_EQ(scene.Pass->GetLighting()->GetStatistics()->GetCount(vtkIBLStatistics::ProbeFaces), scene.Faces);
+}
+
+// A cut picture of the sky has no seams: texels on both sides of an edge between faces differ no more than neighbours
+// inside do. Mutants: a field of view of 89 degrees; pixel centres taken for corners.
+TEST_F(TestProbeCaptureGL, FacesMeetWithoutASeam)
+{
+  Scene scene(this->Window);
+  const vtkSmartPointer<vtkImageData> seen = scene.Pass->CaptureProbe(scene.Renderer, scene.Probe);
+  ASSERT_TRUE(seen);
+  const std::vector<Vec3> directions = GetCubeDirections(FaceSize);
+  const auto get = [&](std::size_t i) { return static_cast<const float*>(seen->GetScalarPointer())[3 * i]; };
+  double across = 0;
+  double inside = 0;
+  for (std::size_t i = 0; i < directions.size(); ++i)
+  {
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      const Vec3 apart = directions[i] - directions[j];
+      if (Dot(apart, apart) < std::pow(2.1 / FaceSize, 2))
+      {
+        const std::size_t face = std::size_t(FaceSize) * FaceSize;
+        const double steepness = std::abs(get(i) - get(j)) / std::sqrt(Dot(apart, apart));
+        double& largest = i / face == j / face ? inside : across;
+        largest = std::max(largest, steepness);
+      }
+    }
+  }
+  EXPECT_GT(inside, 0.3);
+  EXPECT_LE(across, 1.05 * inside);
+}
+
+namespace
+{
+// Walls that reflect the share rho of what they get and send `emission` themselves, all around the probe.
+vtkSmartPointer<vtkActor> MakeRoom(double rho, double emission)
+{
+  vtkNew<vtkCubeSource> cube;
+  cube->SetBounds(-2, 2, -2, 2, -2, 2);
+  vtkNew<vtkReverseSense> inwards;
+  inwards->SetInputConnection(cube->GetOutputPort());
+  inwards->ReverseNormalsOn();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(inwards->GetOutputPort());
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  vtkProperty* property = actor->GetProperty();
+  property->SetInterpolationToPBR();
+  property->SetColor(rho, rho, rho);
+  property->SetBaseIOR(1);
+  vtkNew<vtkImageData> white;
+  white->SetDimensions(2, 2, 1);
+  white->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  std::fill_n(static_cast<unsigned char*>(white->GetScalarPointer()), 12, 255);
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(white);
+  texture->UseSRGBColorSpaceOn();
+  property->SetEmissiveTexture(texture);
+  property->SetEmissiveFactor(emission, emission, emission);
+  return actor;
+}
+}
+
+// A closed room whose walls shine and are matt: light that went back and forth n times is e + rho (e + rho (… s)), s
+// the sky that lights them before. Exact, because it is the same everywhere. Mutants: the sky in every round; one round
+// too many or too few; the light of the first capture in all.
+TEST_F(TestProbeCaptureGL, LightBouncesAsOftenAsAsked)
+{
+  const double rho = 0.6;
+  const double emission = 0.5;
+  for (const int bounces : { 0, 1, 3 })
+  {
+    Scene scene(this->Window);
+    scene.Environment->SetInputData(MakePanorama(16, [](Vec3) { return RGB{ 2, 2, 2 }; }));
+    scene.Renderer->AddActor(MakeRoom(rho, emission));
+    scene.Probe->SetBlendDistance(0);
+    scene.Probe->SetBounds(-2.001, 2.001, -2.001, 2.001, -2.001, 2.001);
+    scene.Probe->SetBounces(bounces);
+    const vtkSmartPointer<vtkImageData> seen = scene.Pass->CaptureProbe(scene.Renderer, scene.Probe);
+    ASSERT_TRUE(seen);
+    EXPECT_EQ(scene.Render(), 6 * (bounces + 1));
+    EXPECT_EQ(scene.Render(), 0);
+    double light = 2;
+    for (int i = 0; i <= bounces; ++i)
+    {
+      light = emission + rho * light;
+    }
+    EXPECT_LE(GetRelativeL1(seen, std::vector<RGB>(6 * FaceSize * FaceSize, RGB{ light, light, light })), 3e-3)
+      << bounces;
+    this->Window->RemoveRenderer(scene.Renderer);
+  }
+}
+
+// Once means once, and again when asked; every frame, every frame; an interval, after it. What follows a lamp that
+// moves with the camera is none of a probe's business (it would have to be captured whenever the view turns). Mutants:
+// modes mixed up; headlights in the capture.
+TEST_F(TestProbeCaptureGL, ModesSayWhen)
+{
+  Scene scene(this->Window);
+  const vtkSmartPointer<vtkActor> block = scene.AddBlock(Blocks[0]);
+  block->GetProperty()->LightingOn();
+  scene.Probe->SetUpdateMode(vtkIBLProbe::Once);
+  EXPECT_EQ(scene.Render(), 6);
+  block->SetPosition(0.5, 0, 0);
+  EXPECT_EQ(scene.Render(), 0);
+  scene.Probe->Capture();
+  EXPECT_EQ(scene.Render(), 6);
+  EXPECT_EQ(scene.Render(), 0);
+  scene.Probe->SetUpdateMode(vtkIBLProbe::EveryFrame);
+  EXPECT_EQ(scene.Render(), 6);
+  EXPECT_EQ(scene.Render(), 6);
+  scene.Probe->SetUpdateMode(vtkIBLProbe::Interval);
+  scene.Probe->SetUpdateInterval(1e8);
+  EXPECT_EQ(scene.Render(), 0);
+  scene.Probe->SetUpdateInterval(0);
+  EXPECT_EQ(scene.Render(), 6);
+
+  // The one light is a headlight, and the block's Phong shading shows nothing else: black.
+  scene.Environment->SetIntensity(0);
+  const vtkSmartPointer<vtkImageData> seen = scene.Pass->CaptureProbe(scene.Renderer, scene.Probe);
+  double range[2];
+  seen->GetScalarRange(range);
+  EXPECT_EQ(range[1], 0);
+  vtkNew<vtkLight> lamp;
+  lamp->SetLightTypeToSceneLight();
+  lamp->SetPosition(-5, 0, 0);
+  scene.Renderer->AddLight(lamp);
+  scene.Pass->CaptureProbe(scene.Renderer, scene.Probe)->GetScalarRange(range);
+  EXPECT_GT(range[1], 0.1);
+}
+
+// Under a budget, each frame takes one step and the light changes when all are done: six faces, mip levels, layers. It
+// is then the light that a probe without a budget has. Mutants: light shown half made; a frame that goes on; one that
+// stops for good.
+TEST_F(TestProbeCaptureGL, ABudgetCutsAnUpdateIntoFrames)
+{
+  Scene scene(this->Window);
+  const vtkSmartPointer<vtkActor> block = scene.AddBlock(Blocks[0]);
+  EXPECT_EQ(scene.Render(), 6); // the first light is all there
+  scene.Probe->SetTimeBudget(1e-6);
+  const auto getPicture = [&]
+  {
+    scene.Window->Render();
+    vtkNew<vtkUnsignedCharArray> rgba;
+    scene.Window->GetRGBACharPixelData(0, 0, 63, 63, 0, rgba);
+    return std::vector<unsigned char>(rgba->GetPointer(0), rgba->GetPointer(0) + rgba->GetNumberOfValues());
+  };
+  const std::vector<unsigned char> before = getPicture();
+  scene.Probe->Capture(); // all six
+  block->GetProperty()->SetColor(0, 0, 1);
+  int frames = 0;
+  std::vector<unsigned char> now;
+  const vtkTypeInt64 updates = scene.Probe->GetNumberOfUpdates();
+  vtkTypeInt64 faces = 0;
+  for (; scene.Probe->GetNumberOfUpdates() == updates && frames < 100; ++frames)
+  {
+    EXPECT_TRUE(now.empty() || now == before) << frames;
+    now = getPicture();
+    const vtkTypeInt64 inThisFrame = scene.Render();
+    faces += inThisFrame;
+    EXPECT_LE(inThisFrame, 2); // this loop renders twice
+  }
+  EXPECT_EQ(faces, 6);
+  EXPECT_GE(frames, 6); // six faces, levels and at least four layers, two a turn
+  EXPECT_LT(frames, 20);
+  const std::vector<unsigned char> after = getPicture();
+  EXPECT_NE(after, before);
+  scene.Probe->SetTimeBudget(0);
+  scene.Probe->Capture();
+  EXPECT_EQ(getPicture(), after);
+}
+
+// New light comes in as slowly as asked: in as many frames, in even parts. Witness: the mean of old and new by hand.
+// Mutants: both in full at once; the old one gone at the start; a fade that never ends.
+TEST_F(TestProbeCaptureGL, LightFadesInOverFrames)
+{
+  Scene scene(this->Window);
+  scene.Environment->SetInputData(MakePanorama(16, [](Vec3) { return RGB{ 1, 1, 1 }; }));
+  scene.Probe->SetFadeFrames(3);
+  const auto getLight = [&]
+  {
+    const vtkSmartPointer<vtkImageData> picture = scene.Pass->CaptureRadiance(scene.Renderer);
+    return double(*static_cast<const float*>(picture->GetScalarPointer(32, 32, 0)));
+  };
+  EXPECT_NEAR(getLight(), 1.0, 5e-3);
+  scene.Environment->SetIntensity(5);
+  for (const double share : { 0.25, 0.5, 0.75, 1.0, 1.0 })
+  {
+    EXPECT_NEAR(getLight(), 1.0 + 4.0 * share, 2e-2) << share;
+  }
+}
+
+// Nobody sees it: no surface in its reach, none in sight, a scene of unlit surfaces, a selection. Mutants: every probe
+// of the collection updated; probes asked about what is hidden or out of the picture; captures in a selection.
+TEST_F(TestProbeCaptureGL, WhatNobodySeesIsNotCaptured)
+{
+  Scene scene(this->Window);
+  scene.AddBlock(Blocks[0]);
+  scene.Probe->SetInfluenceBounds(10, 11, 10, 11, 10, 11);
+  EXPECT_EQ(scene.Render(), 0);
+  scene.Probe->SetInfluenceToBounds();
+  scene.Ball->VisibilityOff();
+  EXPECT_EQ(scene.Render(), 0);
+  scene.Ball->VisibilityOn();
+  scene.Renderer->GetActiveCamera()->SetFocalPoint(0, 0, 10); // it looks away
+  EXPECT_EQ(scene.Render(), 0);
+  scene.Renderer->GetActiveCamera()->SetFocalPoint(0, 0, 0);
+  vtkNew<vtkHardwareSelector> selector;
+  selector->SetRenderer(scene.Renderer);
+  selector->SetArea(0, 0, 63, 63);
+  vtkSmartPointer<vtkSelection>::Take(selector->Select());
+  EXPECT_EQ(scene.Probe->GetNumberOfCapturedFaces(), 0);
+  EXPECT_EQ(scene.Render(), 6);
 }
