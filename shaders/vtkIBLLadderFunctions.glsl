@@ -36,3 +36,12 @@ float iblLayerFromPosition(float position, float layers)
 {
   return position < 0.2 ? 5.0 * position : 1.0 + (layers - 1.0) * (1.25 * (position - 0.2));
 }
+
+// Layer of the lobe that covers, from the probe, what one at `layer` covers from a surface that is `ratio` times as far from there:
+// GGX's width is its alpha, so roughness goes with the ratio's root (Lagarde & de Rousiers 2014, section 4.9.5, but for their way back
+// at roughness 1, which is further from the integral), and layers with its logarithm. A mirror stays one.
+float iblLayerFromProbe(float layer, float layers, float ratio)
+{
+  float perOctave = 0.5 * (layers - 1.0) / (-IBL_LOG2_FIRST_ROUGHNESS);
+  return clamp(layer + min(layer, 1.0) * perOctave * log2(max(ratio, 1e-6)), 0.0, layers);
+}

@@ -12,63 +12,75 @@ uniform vec3 iblLampPowers[IBL_LAMPS];     // radiance x solid angle [sr], of th
 #include "vtkIBLSamplingFunctions.glsl"
 #include "vtkIBLBRDFFunctions.glsl"
 
+// The fitted lobe: bend, position on the ladder, and the share of irradiance that stands beside it.
+vec3 iblFittedLobe(iblBoundary boundary)
+{
+  const vec3 mean = vec3(1.0 / 3.0);
+  float share = iblDielectricShare(dot(boundary.f0, mean), dot(boundary.f90, mean), boundary.reflection.xy);
+  return vec3(
+    mix(boundary.lobes.xy, boundary.lobes.zw, share), mix(boundary.reflection.z, boundary.reflection.w, share));
+}
+
 #ifdef IBL_PROBES
 uniform samplerCubeArray iblProbeOddLayers;
 uniform samplerCubeArray iblProbeEvenLayers;
 uniform float iblProbeLayers; // number of the last layer
 
-// A probe's light through the lobe at `position` on the ladder, around directionVC from positionVC. (To turn wide lobes less by parallax,
-// as Lagarde & de Rousiers 2014 do, is further from the integral at any roughness.)
-vec3 iblProbeReflection(iblProbe probe, vec3 positionVC, vec3 directionVC, float position)
+// A probe's light through the lobe at `position` on the ladder, around directionVC from `unit`. (To turn wide lobes less by parallax, as
+// Lagarde & de Rousiers 2014 do, is further from the integral at any roughness.)
+vec3 iblProbeReflection(iblProbe probe, vec3 unit, vec3 directionVC, float position)
 {
-  vec3 unit = iblTransform(probe.unitFromView, vec4(positionVC, 1.0));
   vec4 parallax = iblParallaxDirection(probe, unit, directionVC);
-  float roughness = iblPerceptualRoughnessFromPosition(position);
-  float at = iblLayerFromPosition(iblLadderPosition(iblRoughnessFromProbe(roughness, parallax.w)), iblProbeLayers);
-  iblLayerTaps taps = iblFindLayer(at, iblProbeLayers);
-  vec3 even = textureLod(iblProbeEvenLayers, vec4(parallax.xyz, probe.use.x), taps.even).rgb;
+  float layer = iblLayerFromProbe(iblLayerFromPosition(position, iblProbeLayers), iblProbeLayers, parallax.w);
+  iblLayerTaps taps = iblFindLayer(layer, iblProbeLayers);
+  vec4 at = vec4(parallax.xyz, probe.use.x);
+  vec3 even = textureLod(iblProbeEvenLayers, at, taps.even).rgb;
 #ifdef IBL_MIRROR
-  even = taps.isMirror ? textureLod(iblProbeRadiance, vec4(parallax.xyz, probe.use.x), 0.0).rgb / probe.scale.w : even;
+  even = taps.isMirror ? textureLod(iblProbeRadiance, at, 0.0).rgb / probe.scale.w : even;
 #endif
-  vec3 odd = textureLod(iblProbeOddLayers, vec4(parallax.xyz, probe.use.x), taps.odd).rgb;
-  return probe.scale.rgb * mix(even, odd, taps.oddShare);
+  return probe.scale.rgb * mix(even, textureLod(iblProbeOddLayers, at, taps.odd).rgb, taps.oddShare);
 }
 
 // Irradiance over pi: the roughest layer, which is an even one.
-vec3 iblProbeIrradiance(iblProbe probe, vec3 positionVC, vec3 normalVC)
+vec3 iblProbeIrradiance(iblProbe probe, vec3 unit, vec3 normalVC)
 {
-  vec3 unit = iblTransform(probe.unitFromView, vec4(positionVC, 1.0));
-  vec3 direction = iblParallaxDirection(probe, unit, normalVC).xyz;
-  return probe.scale.rgb * textureLod(iblProbeEvenLayers, vec4(direction, probe.use.x), 0.5 * iblProbeLayers - 1.0).rgb;
+  vec4 at = vec4(iblParallaxDirection(probe, unit, normalVC).xyz, probe.use.x);
+  return probe.scale.rgb * textureLod(iblProbeEvenLayers, at, 0.5 * iblProbeLayers - 1.0).rgb;
 }
 
+// In one loop, since llvmpipe takes as long for one as for a probe.
+iblBoundary iblGatherProbes(iblBoundary boundary, vec3 viewVC)
+{
+  vec3 lobe = iblFittedLobe(boundary);
+  vec3 direction = mix(boundary.normal, reflect(-viewVC, boundary.normal), lobe.x);
+  boundary.probeShares = vec4(0.0);
+  boundary.probeIrradiance = vec3(0.0);
+  boundary.probeRadiance = vec3(0.0);
+  float left = 1.0;
+  for (int i = 0; i < iblProbeCount; ++i)
+  {
+    iblProbe probe = iblGetProbe(i);
+    vec3 unit = iblTransform(probe.unitFromView, vec4(boundary.position, 1.0));
+    float share = left * iblProbeShare(probe, unit);
+    boundary.probeShares[i] = share;
+    boundary.probeIrradiance += share * iblProbeIrradiance(probe, unit, boundary.normal);
+    boundary.probeRadiance += share * iblProbeReflection(probe, unit, direction, lobe.y);
+    left -= share;
+  }
+  boundary.skyScale = left * iblRadianceScale;
+  return boundary;
+}
 #define IBL_OF_THE_SKY boundary.skyScale *
 #else
 #define IBL_OF_THE_SKY
 #endif
-
-// Light through the lobe at `position` on the ladder, around directionVC.
-vec3 iblLobeRadiance(iblBoundary boundary, vec3 directionVC, float position)
-{
-  vec3 light = IBL_OF_THE_SKY iblLayerRadiance(iblEnvironmentFromView * directionVC, iblLayerFromPosition(position, iblLayers));
-#ifdef IBL_PROBES
-  for (int i = 0; i < iblProbeCount; ++i)
-  {
-    light += boundary.probeShares[i] * iblProbeReflection(iblGetProbe(i), boundary.position, directionVC, position);
-  }
-#endif
-  return light;
-}
 
 iblDiffuse iblDiffuseLight(iblBoundary boundary, vec3 viewVC)
 {
   iblDiffuse light;
   light.layers = IBL_OF_THE_SKY textureLod(iblIrradiance, iblEnvironmentFromView * boundary.normal, 0.0).rgb;
 #ifdef IBL_PROBES
-  for (int i = 0; i < iblProbeCount; ++i)
-  {
-    light.layers += boundary.probeShares[i] * iblProbeIrradiance(iblGetProbe(i), boundary.position, boundary.normal);
-  }
+  light.layers += boundary.probeIrradiance;
 #endif
   light.irradiance = light.layers;
 #if IBL_LAMPS > 0
@@ -146,7 +158,17 @@ vec3 iblAnisotropicRadiance(iblBoundary boundary, vec3 viewVC, vec2 lobe)
     vec3 local = tangentFromView * L;
     float weight = local.z > 0.0 ? iblV_SmithGGXAnisotropic(V, local, boundary.alpha) * local.z *
         max(dot(viewVC, H), 0.0) / dot(H, boundary.normal) : 0.0;
-    sum += weight * iblLobeRadiance(boundary, mix(H, L, lobe.x), lobe.y);
+    vec3 direction = mix(H, L, lobe.x);
+    vec3 light = IBL_OF_THE_SKY iblLayerRadiance(iblEnvironmentFromView * direction, iblLayerFromPosition(lobe.y, iblLayers));
+#ifdef IBL_PROBES
+    for (int i = 0; i < iblProbeCount; ++i)
+    {
+      iblProbe probe = iblGetProbe(i);
+      vec3 unit = iblTransform(probe.unitFromView, vec4(boundary.position, 1.0));
+      light += boundary.probeShares[i] * iblProbeReflection(probe, unit, direction, lobe.y);
+    }
+#endif
+    sum += weight * light;
     weights += weight;
   }
   return sum / weights;
@@ -155,23 +177,24 @@ vec3 iblAnisotropicRadiance(iblBoundary boundary, vec3 viewVC, vec2 lobe)
 
 vec3 iblReflectedLight(iblBoundary boundary, vec3 viewVC, vec3 layers)
 {
-  const vec3 mean = vec3(1.0 / 3.0);
-  float share = iblDielectricShare(dot(boundary.f0, mean), dot(boundary.f90, mean), boundary.reflection.xy);
-  vec2 lobe = mix(boundary.lobes.xy, boundary.lobes.zw, share); // bend, position on the ladder
-  float diffuseShare = mix(boundary.reflection.z, boundary.reflection.w, share);
+  vec3 lobe = iblFittedLobe(boundary);
   vec3 reflected = reflect(-viewVC, boundary.normal);
   vec3 radiance;
 #ifdef IBL_ANISOTROPY
   if (boundary.anisotropic)
   {
-    radiance = iblAnisotropicRadiance(boundary, viewVC, lobe);
+    radiance = iblAnisotropicRadiance(boundary, viewVC, lobe.xy);
   }
   else
 #endif
   {
-    radiance = iblLobeRadiance(boundary, mix(boundary.normal, reflected, lobe.x), lobe.y);
+    radiance = IBL_OF_THE_SKY iblLayerRadiance(
+      iblEnvironmentFromView * mix(boundary.normal, reflected, lobe.x), iblLayerFromPosition(lobe.y, iblLayers));
+#ifdef IBL_PROBES
+    radiance += boundary.probeRadiance;
+#endif
   }
-  radiance = boundary.once * mix(radiance, layers, diffuseShare);
+  radiance = boundary.once * mix(radiance, layers, lobe.z);
 #ifdef IBL_HORIZON
   radiance *= iblHorizonFade(dot(reflected, boundary.geometricNormal));
 #endif

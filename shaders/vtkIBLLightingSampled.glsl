@@ -56,6 +56,19 @@ vec3 iblLampDirection(int lamp, int i, uint shift)
 #endif
 
 #ifdef IBL_PROBES
+iblBoundary iblGatherProbes(iblBoundary boundary, vec3 viewVC)
+{
+  float left = 1.0;
+  for (int i = 0; i < iblProbeCount; ++i)
+  {
+    iblProbe probe = iblGetProbe(i);
+    boundary.probeShares[i] = left * iblProbeShare(probe, iblTransform(probe.unitFromView, vec4(boundary.position, 1.0)));
+    left -= boundary.probeShares[i];
+  }
+  boundary.skyScale = left * iblRadianceScale;
+  return boundary;
+}
+
 // Radiance from directionVC, where the sky, whose faces have so many texels, would be read at that mip level.
 vec3 iblProbeSample(iblProbe probe, vec3 positionVC, vec3 directionVC, float texelsOfSky, float level)
 {

@@ -39,11 +39,3 @@ float iblInfluence(vec3 point, vec3 steepness, bool isBall)
   float share = clamp(depth, 0.0, 1.0);
   return share * share * (3.0 - 2.0 * share);
 }
-
-// Roughness of the lobe that covers, from the probe, what one of perceptualRoughness covers from a surface that is `ratio` times as
-// far from there: GGX's width is its alpha (Lagarde & de Rousiers 2014, section 4.9.5, but for their way back at roughness 1, which is
-// further from the integral).
-float iblRoughnessFromProbe(float perceptualRoughness, float ratio)
-{
-  return min(perceptualRoughness * sqrt(ratio), 1.0);
-}

@@ -30,7 +30,7 @@ vec3 iblTransform(vec4 rows[3], vec4 point)
   return vec3(dot(rows[0], point), dot(rows[1], point), dot(rows[2], point));
 }
 
-// The probe's share of what those before it leave. Light that fades counts as much less as the new light, before it, counts more.
+// The probe's share of what those before it leave: all shares and what the sky gets, the rest, sum to 1. Light that fades counts as much less as the new light, before it, counts more.
 float iblProbeShare(iblProbe probe, vec3 unit)
 {
   float share = iblInfluence(
@@ -53,18 +53,4 @@ vec4 iblParallaxDirection(iblProbe probe, vec3 unit, vec3 directionVC)
   vec3 seen = iblTransform(probe.cubeFromUnit, vec4(origin + exit * direction, 1.0));
   float distance = length(iblTransform(probe.cubeFromUnit, vec4(exit * direction, 0.0)));
   return vec4(seen, distance / max(length(seen), 1e-20));
-}
-
-// What each probe counts at a place; what is left is the sky's. Sums to 1.
-vec4 iblProbeShares(vec3 positionVC)
-{
-  vec4 shares = vec4(0.0);
-  float left = 1.0;
-  for (int i = 0; i < iblProbeCount; ++i)
-  {
-    iblProbe probe = iblGetProbe(i);
-    shares[i] = left * iblProbeShare(probe, iblTransform(probe.unitFromView, vec4(positionVC, 1.0)));
-    left -= shares[i];
-  }
-  return shares;
 }

@@ -81,6 +81,8 @@ struct iblBoundary
   vec3 position; // view space
   vec4 probeShares;
   vec3 skyScale; // what is left for the sky, and its scale
+  vec3 probeIrradiance; // over pi
+  vec3 probeRadiance; // through the boundary's lobe
 #endif
 #ifdef IBL_HORIZON
   vec3 geometricNormal;
@@ -100,6 +102,9 @@ struct iblDiffuse
   vec3 refracted; // over pi
   vec3 layers; // over pi
 };
+#ifdef IBL_PROBES
+iblBoundary iblGatherProbes(iblBoundary boundary, vec3 viewVC);
+#endif
 iblDiffuse iblDiffuseLight(iblBoundary boundary, vec3 viewVC);
 vec3 iblReflectedLight(iblBoundary boundary, vec3 viewVC, vec3 layers);
 
@@ -130,8 +135,6 @@ iblBoundary iblMakeBoundary(iblMaterial material, vec3 normal, vec3 positionVC, 
   boundary.lobes = iblReadTable(boundary.NoV, boundary.perceptualRoughness, 1.0);
 #ifdef IBL_PROBES
   boundary.position = positionVC;
-  boundary.probeShares = iblProbeShares(positionVC);
-  boundary.skyScale = (1.0 - dot(boundary.probeShares, vec4(1.0))) * iblRadianceScale;
 #endif
 #ifdef IBL_HORIZON
   boundary.geometricNormal = material.geometricNormal;
@@ -185,6 +188,9 @@ iblOutgoing iblEnvironmentLight(iblMaterial material, vec3 positionVC)
   surface.f0 = iblMix(baseF0, material.albedo, material.metallic);
   surface.f90 = iblMix(baseF90, material.edgeTint, material.metallic);
   surface.once = iblMix(baseOnce, metalOnce, material.metallic);
+#ifdef IBL_PROBES
+  surface = iblGatherProbes(surface, viewVC);
+#endif
 
   iblDiffuse light = iblDiffuseLight(surface, viewVC);
   iblOutgoing outgoing;
@@ -215,6 +221,9 @@ iblOutgoing iblEnvironmentLight(iblMaterial material, vec3 positionVC)
   coat.f0 = vec3(material.coatF0);
   coat.f90 = vec3(1.0);
   coat.once = iblOnce(coat.f0, coat.f90, coat);
+#ifdef IBL_PROBES
+  coat = iblGatherProbes(coat, viewVC);
+#endif
   vec3 below = (vec3(1.0) - material.coatStrength * coat.once) * material.coatTint;
   outgoing.diffuse *= below;
   outgoing.specular = below * outgoing.specular + material.coatStrength * iblReflectedLight(coat, viewVC, light.layers);
