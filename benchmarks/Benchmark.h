@@ -237,6 +237,7 @@ bool HasCmgen();
 void RunStages(Session& session);  // BenchmarkStages.cxx
 void RunShading(Session& session); // BenchmarkShading.cxx
 void RunFrames(Session& session);  // BenchmarkFrames.cxx
+void RunProbes(Session& session);  // BenchmarkProbes.cxx
 /// Renders one first frame and prints its seconds, and how often the disk had its light: the process that "first frame"
 /// starts. `fromFile`: its light comes from the file, or the cache, within these seconds; else from pixels in memory.
 int RunFirstFrame(const std::string& engine, const std::string& map, bool fromFile);

@@ -42,6 +42,7 @@ int Run(Session& session)
   RunStages(session);
   RunShading(session);
   RunFrames(session);
+  RunProbes(session);
   RunThreads(session);
   RunGrowth(session);
   RunFunctions(session);

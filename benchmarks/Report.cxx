@@ -570,7 +570,12 @@ void WriteMarkdown(const Session& session)
   WriteCommand(out, "steady frame");
   WriteStageTable(out, session, "steady frame");
 
-  out << "## 5. Cost growth\n\nThe whole bake (cmgen: layers at 256 samples only) of "
+  out << "## 5. Probes\n\nA frame of a hall of eight mirror-like balls, 99,840 triangles, and 24 pillars, 512^2; probes "
+         "of 128^2 faces. What moves is a small sphere that one face of the first ball's probe sees.\n\n";
+  WriteCommand(out, "probes");
+  WriteStageTable(out, session, "probes");
+
+  out << "## 6. Cost growth\n\nThe whole bake (cmgen: layers at 256 samples only) of "
       << (options.Maps.empty() ? std::string() : options.Maps.front())
       << ", resized. VTK is measured up to 2048 x 1024: larger takes minutes, and slow ones are repeated less (see "
          "runs).\n\n";
@@ -580,11 +585,11 @@ void WriteMarkdown(const Session& session)
   WriteCommand(out, "growth face");
   WriteGrowthTable(out, session, "growth face", "face edge");
 
-  out << "## 6. On the CPU, before the GPU\n\nBy Google Benchmark; nothing to trade against error.\n\n";
+  out << "## 7. On the CPU, before the GPU\n\nBy Google Benchmark; nothing to trade against error.\n\n";
   WriteCommand(out, "function");
   WriteStageTable(out, session, "function");
 
-  out << "## 7. Others\n\n" << OthersText << "## Where we are behind\n\n";
+  out << "## 8. Others\n\n" << OthersText << "## Where we are behind\n\n";
   WriteBehind(out, session);
 }
 

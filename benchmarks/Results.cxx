@@ -187,7 +187,7 @@ std::string CheckSchema(const std::string& fileName)
   {
     for (const char* panel :
       { "cube", "irradiance", "layer 0.10", "layer 1.00", "table", "bake", "threads", "shading metal 0.20",
-        "shading dielectric 1.00", "first frame", "steady frame", "growth source", "growth face", "function" })
+        "shading dielectric 1.00", "first frame", "steady frame", "probes", "growth source", "growth face", "function" })
     {
       if (panels.count(panel) == 0)
       {
