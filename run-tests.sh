@@ -1,7 +1,11 @@
 #!/usr/bin/env bash
 # run-tests.sh [PRESET] [CTEST ARGUMENT…]: set up, build and pass all tests. PRESET: release (default), debug, sanitize.
+# run-tests.sh --stress [RUNS]: the stress suite's long form, an hour or two; see tests/stress/run-long.sh.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
+if [ "${1:-}" = --stress ]; then
+  exec tests/stress/run-long.sh "${@:2}"
+fi
 preset=release
 case ${1:-} in release | debug | sanitize) preset=$1; shift ;; esac
 cmake/install-dependencies.sh

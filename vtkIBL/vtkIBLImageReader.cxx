@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIBLImageReader.h"
 
+#include "vtkIBLOpenEXRHeader.h"
 #include "vtkIBLThreads.h"
 
 #include "vtkErrorCode.h"
@@ -117,12 +118,38 @@ struct Plan
   std::vector<Tap> ColumnTaps, RowTaps; // sorted by To
 };
 
-std::string SizeOf(int width, int height)
+std::string SizeOf(std::int64_t width, std::int64_t height)
 {
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
-std::unique_ptr<OIIO::ImageInput> Open(const char* name)
+[[noreturn]] void RefuseSize(const std::string& size, std::int64_t pixels, vtkIdType maximum)
+{
+  throw ReadError(vtkErrorCode::FileFormatError,
+    "it declares " + size + "; at most " + std::to_string(maximum) +
+      " pixels are allowed. If the file is sound, call SetMaximumNumberOfPixels(" + std::to_string(pixels) +
+      "), or make it smaller.");
+}
+
+// Before anything is made room for.
+void CheckHeader(const std::filesystem::path& path, vtkIdType maximum)
+{
+  vtkIBLOpenEXRSize size;
+  try
+  {
+    size = vtkIBLCheckOpenEXRHeader(path);
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw ReadError(vtkErrorCode::FileFormatError, std::string(error.what()) + "; get the file again.");
+  }
+  if (size.GetNumberOfPixels() > maximum)
+  {
+    RefuseSize(SizeOf(size.Width, size.Height) + " pixels", size.GetNumberOfPixels(), maximum);
+  }
+}
+
+std::unique_ptr<OIIO::ImageInput> Open(const char* name, vtkIdType maximum)
 {
   if (!name || !*name)
   {
@@ -130,7 +157,8 @@ std::unique_ptr<OIIO::ImageInput> Open(const char* name)
   }
   // A FIFO or a device could block for ever, so OpenImageIO gets to see regular files only.
   std::error_code ignored;
-  const auto status = std::filesystem::status(std::filesystem::u8path(name), ignored);
+  const std::filesystem::path path = std::filesystem::u8path(name);
+  const auto status = std::filesystem::status(path, ignored);
   if (!std::filesystem::exists(status))
   {
     throw ReadError(vtkErrorCode::FileNotFoundError, "there is no such file; check the path and its permissions.");
@@ -141,6 +169,7 @@ std::unique_ptr<OIIO::ImageInput> Open(const char* name)
       std::filesystem::is_directory(status) ? "it is a directory" : "it is a pipe, a socket or a device";
     throw ReadError(vtkErrorCode::CannotOpenFileError, kind + "; give an image file.");
   }
+  CheckHeader(path, maximum);
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1); // as stored: no multiplication of encoded colours
   auto input = OIIO::ImageInput::open(name, &config);
@@ -171,11 +200,9 @@ void CheckSize(const OIIO::ImageSpec& spec, vtkIdType maximum)
   if (largest > maximum ||
     spec.scanline_bytes(true) > std::size_t(VTK_INT_MAX)) // OpenImageIO counts the latter in an int
   {
-    throw ReadError(vtkErrorCode::FileFormatError,
-      "it declares " + size + ", the display window " + SizeOf(spec.full_width, spec.full_height) + ", tiles " +
-        SizeOf(spec.tile_width, spec.tile_height) + "; at most " + std::to_string(maximum) +
-        " pixels are allowed. If the file is sound, call SetMaximumNumberOfPixels(" + std::to_string(largest) +
-        "), or make it smaller.");
+    RefuseSize(size + ", the display window " + SizeOf(spec.full_width, spec.full_height) + ", tiles " +
+        SizeOf(spec.tile_width, spec.tile_height),
+      largest, maximum);
   }
 }
 
@@ -527,7 +554,7 @@ int vtkIBLImageReader::RequestInformation(vtkInformation*, vtkInformationVector*
   this->ErrorCode = vtkErrorCode::NoError;
   try
   {
-    const std::array<int, 3> size = MakePlan(this, *Open(this->FileName)).Dimensions;
+    const std::array<int, 3> size = MakePlan(this, *Open(this->FileName, this->MaximumNumberOfPixels)).Dimensions;
     vtkInformation* info = outputVector->GetInformationObject(0);
     const int extent[6] = { 0, size[0] - 1, 0, size[1] - 1, 0, size[2] - 1 };
     info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
@@ -547,7 +574,7 @@ int vtkIBLImageReader::RequestData(vtkInformation*, vtkInformationVector**, vtkI
   this->ErrorCode = vtkErrorCode::NoError;
   try
   {
-    const auto input = Open(this->FileName);
+    const auto input = Open(this->FileName, this->MaximumNumberOfPixels);
     const Plan plan = MakePlan(this, *input);
     vtkInformation* info = outputVector->GetInformationObject(0);
     vtkImageData* output = vtkImageData::GetData(info);

@@ -3,6 +3,7 @@
 #include "vtkIBLStoredLightFile.h"
 
 #include "vtkIBLHash.h"
+#include "vtkIBLOpenEXRHeader.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfDoubleAttribute.h>
@@ -213,8 +214,14 @@ void vtkIBLWriteStoredLight(const std::filesystem::path& path, const std::string
 
 vtkIBLStoredLight vtkIBLReadStoredLight(const std::filesystem::path& path, const std::string& key)
 {
+  const vtkIBLOpenEXRSize largest = vtkIBLCheckOpenEXRHeader(path);
   std::ifstream stream(path, std::ios::binary | std::ios::ate);
   const std::int64_t size = stream ? std::int64_t(stream.tellg()) : 0;
+  if (largest.GetNumberOfPixels() > size)
+  {
+    throw std::runtime_error("its " + std::to_string(size) + " bytes cannot hold " + std::to_string(largest.Width) +
+      " x " + std::to_string(largest.Height) + " pixels");
+  }
   stream.seekg(0);
   Imf::StdIFStream input(stream, path.string().c_str());
   Imf::MultiPartInputFile file(input, 0);

@@ -660,7 +660,7 @@ TEST_F(ImageReader, ErrorsSayWhatToDo)
     { "folder.exr", "directory", E::CannotOpenFileError }, { "pipe.exr", "pipe", E::CannotOpenFileError },
     { "empty.exr", "not an OpenEXR file", E::UnrecognizedFileTypeError },
     { "text.exr", "not an OpenEXR file", E::UnrecognizedFileTypeError },
-    { "header.exr", "opened", E::UnrecognizedFileTypeError }, { "cut.exr", "of 32 on", E::PrematureEndOfFileError },
+    { "header.exr", "header is damaged", E::FileFormatError }, { "cut.exr", "of 32 on", E::PrematureEndOfFileError },
     { "zero.hdr", "0 x 0", E::FileFormatError }, { "shape.exr", "10 x 7. Accepted is a panorama", E::FileFormatError },
     { "latlong.exr", "7 x 42. Accepted is a panorama of 2n x n, as its OpenEXR", E::FileFormatError },
     { "many.exr", "SetMaximumNumberOfPixels(3200)", E::FileFormatError },
