@@ -498,7 +498,7 @@ void ReadBand(OIIO::ImageInput& input, const Plan& plan, Band& band)
     ? input.read_tiles(
         0, 0, spec.x, spec.x + spec.width, band.Begin, band.End, 0, 1, first, last, plan.Stored, band.Bytes.data())
     : input.read_scanlines(0, 0, band.Begin, band.End, 0, first, last, plan.Stored, band.Bytes.data());
-  if (!isRead)
+  if (!isRead || input.has_error()) // of cut TIFF and JPEG files OpenImageIO says what is wrong, and that all is well
   {
     throw ReadError(vtkErrorCode::PrematureEndOfFileError,
       "its pixels cannot be read from row " + std::to_string(band.Begin - spec.y) + " of " +
