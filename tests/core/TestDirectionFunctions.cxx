@@ -141,7 +141,7 @@ TYPED_TEST(DirectionFunctions, DirectionFromEquirect)
 }
 
 // Texels of any size against the closed form in double, whose own four terms cancel to 4e-16 sr. 2e-6 in float: see
-// TestSinglePrecision. Mutant: that closed form itself, in float (1 % wrong at 256^2).
+// docs/numerics.md. Mutant: that closed form itself, in float (1 % wrong at 256^2).
 TYPED_TEST(DirectionFunctions, SolidAngle)
 {
   USE_SHADER;
