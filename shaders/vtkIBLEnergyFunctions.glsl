@@ -26,7 +26,7 @@ vec3 iblSingleScatter(vec3 f0, vec3 f90, vec2 ab)
 // Among facets, of light that meets a share `once` of reflection at NoV first.
 vec3 iblMultipleScatter(vec3 f0, vec3 f90, vec3 once, vec2 ab)
 {
-  float missing = 1.0 - (ab.x + ab.y);
+  float missing = max(1.0 - (ab.x + ab.y), 0.0); // a table's values may add up to a little more than 1
   vec3 mean = f0 + (f90 - f0) * (1.0 / 21.0);
   return missing * once * mean / max(vec3(1.0, 1.0, 1.0) - missing * mean, vec3(1e-6, 1e-6, 1e-6));
 }
