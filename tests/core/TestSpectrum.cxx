@@ -107,7 +107,7 @@ TEST(TestSpectrum, KernelBandsAreThoseOfGGX)
   EXPECT_NEAR(std::log(narrow[100] / narrow[50]) / 50, -2 * 0.04, 0.01);
 }
 
-// Against the converged integral, all texels: 3e-4 for a made-up sky; and panoramas of 2x1 up, odd sizes among them,
+// Against the converged integral, all texels: 3e-4 for a made-up sky; and panoramas of 1x1 up, odd sizes among them,
 // which have more bands than texels: 5e-3, for their jumps at texel edges. Mutants: half a column's phase, a row upside
 // down, the sinc left out, m's parity, one face's azimuth.
 TEST(TestSpectrum, FiltersAsTheIntegralDoes)
@@ -117,7 +117,7 @@ TEST(TestSpectrum, FiltersAsTheIntegralDoes)
   {
     EXPECT_LT(GetError(sky, roughness, 8), 3e-4) << roughness;
   }
-  for (auto [width, height] : { std::pair{ 2, 1 }, { 6, 3 }, { 10, 5 }, { 16, 8 }, { 34, 17 } })
+  for (auto [width, height] : { std::pair{ 1, 1 }, { 2, 1 }, { 6, 3 }, { 10, 5 }, { 16, 8 }, { 34, 17 } })
   {
     EXPECT_LT(GetError(MakeSmooth(width, height), 0.5, 6), 5e-3) << width << " x " << height;
   }

@@ -277,8 +277,11 @@ vtkIBLSpectrum::vtkIBLSpectrum(const vtkIBLRadianceImage& original, int order, c
           {
             in[column] = { north[column], south[column] };
           }
-          transformed.emplace_back(width);
-          fft.transform(in.data(), transformed.back().data());
+          transformed.push_back(in);
+          if (width > 1) // KissFFT knows no transform of one number, which it is itself
+          {
+            fft.transform(in.data(), transformed.back().data());
+          }
         }
       }
       for (int m = 0; m < bands; ++m)
