@@ -134,5 +134,6 @@ double vtkIBLMeanLuminance(const vtkIBLRadianceImage& image)
       }
     }
   }
-  return solidAngle > 0.0 ? sum / solidAngle : 0.0;
+  const double mean = solidAngle > 0.0 ? sum / solidAngle : 0.0;
+  return mean < vtkIBLLeastMeanLuminance ? 0.0 : mean;
 }

@@ -33,5 +33,8 @@ constexpr float vtkIBLLargestRadiance = IBL_LARGEST_RADIANCE;
 /// the eight around it (black if there are none), so that one broken texel neither darkens nor dominates.
 vtkIBLRadianceFaults vtkIBLCleanRadiance(vtkIBLRadianceImage& image);
 
-/// Mean luminance (Rec. 709 weights) over the sphere, weighted by solid angle; double sums.
+/// Light is divided by its mean, in floats: below this, it is black.
+constexpr double vtkIBLLeastMeanLuminance = 1e-32;
+
+/// Mean luminance (Rec. 709 weights) over the sphere, weighted by solid angle; double sums. 0 when it is below the least.
 double vtkIBLMeanLuminance(const vtkIBLRadianceImage& image);
