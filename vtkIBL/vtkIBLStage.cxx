@@ -42,6 +42,10 @@ vtkMTimeType vtkIBLStage::GetBuildTime() const
 
 bool vtkIBLStage::Update(vtkOpenGLRenderWindow* window)
 {
+  if (window->GetContextCreationTime() == 0)
+  {
+    window->Initialize(); // never rendered: it has no context, and another window's is current
+  }
   if (window != this->Window || window->GetContextCreationTime() != this->ContextTime)
   {
     this->ReleaseGraphicsResources(this->Window);
