@@ -791,10 +791,12 @@ void vtkIBLEnvironment::GetEnvironmentFromWorld(double rows[9]) const
 
 void vtkIBLEnvironment::GetRadianceScale(double rgb[3]) const
 {
-  const double exposure =
-    this->NormalizeExposure && this->GetMeanLuminance() > 0.0 ? 1.0 / this->GetMeanLuminance() : 1.0;
+  const double mean = this->GetMeanLuminance();
+  const double exposure = this->NormalizeExposure && mean > 0.0 ? 1.0 / mean : 1.0;
+  // Shaders have floats: neither it nor the brightest light may become infinite, for infinity times black is NaN.
+  const double largest = 1e28 / std::max(mean, 1e-10);
   for (int k = 0; k < 3; ++k)
   {
-    rgb[k] = exposure * this->Intensity * this->Tint[k];
+    rgb[k] = std::min(exposure * this->Intensity * this->Tint[k], largest);
   }
 }

@@ -102,7 +102,8 @@ public:
 
   ///@{
   /**
-   * Factor on all light, [0, inf). Default 1. And a colour to filter it with, each in [0, inf); default white.
+   * Factor on all light, [0, inf). Default 1. And a colour to filter it with, each in [0, inf); default white. From a
+   * mean of 1e28 on it gets no brighter.
    */
   void SetIntensity(double intensity);
   vtkGetMacro(Intensity, double);
