@@ -85,11 +85,11 @@ protected:
   fs::path Path(const std::string& name) const { return this->Cache.GetFolder() / name; }
 
   // The light, or empty with a word that names the file; in two seconds.
-  std::vector<float> Read(const fs::path& path, const std::string& what)
+  std::vector<float> Read(const fs::path& path, const std::string& what, vtkIdType maximum = 1 << 16)
   {
     vtkNew<vtkIBLImageReader> reader;
     reader->SetFileName(path.c_str());
-    reader->SetMaximumNumberOfPixels(1 << 16);
+    reader->SetMaximumNumberOfPixels(maximum > 0 ? maximum : reader->GetMaximumNumberOfPixels());
     const auto start = std::chrono::steady_clock::now();
     reader->Update();
     EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 2) << what;
@@ -164,6 +164,43 @@ TEST_F(TestFiles, WrongBits)
     }
   }
   std::printf("  %d bent files: %d errors, %d read\n", this->Errors + this->Lights, this->Errors, this->Lights);
+}
+
+// A few hundred bytes that declare a panorama of 65,500 to 1,000,000 columns, of each format: refused by their number
+// of pixels, as it is allowed by default, in 256 MiB. Mutant: the size not looked at (memory).
+TEST_F(TestFiles, DeclaredSizes)
+{
+  std::map<std::string, fs::path> seeds;
+  for (const fs::path& path : WriteStressFiles(this->Cache.GetFolder()))
+  {
+    seeds[path.filename().string()] = path;
+  }
+  const auto with = [&seeds](const std::string& name, std::size_t at, const std::string& bytes)
+  {
+    std::string file = Load(seeds.at(name));
+    Save(seeds.at(name), file.replace(at, bytes.size(), bytes));
+  };
+  Save(seeds.at("radiance.hdr"), "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 500000 +X 1000000\n\x02\x02\x02\x02");
+  // IHDR's width and height, bytes of 8 and RGB, none of the rest, and its CRC.
+  with("uint8.png", 16, { "\x00\x0f\x42\x40\x00\x07\xa1\x20\x08\x02\x00\x00\x00\x3a\x56\x07\x4f", 17 });
+  const std::string jpeg = Load(seeds.at("uint8.jpg"));
+  with("uint8.jpg", jpeg.find("\xff\xc0") + 5, "\x7f\xee\xff\xdc"); // 32750 rows of 65500
+  // The tags of width (0x100) and length (0x101): one number of 16 bits each, written as one of 32.
+  for (const char* name : { "float.tif", "tiled.tif" })
+  {
+    for (const std::string& tag : { std::string("\x00\x01", 2), std::string("\x01\x01", 2) })
+    {
+      const std::size_t at = Load(seeds.at(name)).find(tag + std::string("\x03\x00\x01\x00\x00\x00", 6));
+      ASSERT_NE(at, std::string::npos) << name;
+      const std::string size(tag[0] ? "\x20\xa1\x07\x00" : "\x40\x42\x0f\x00", 4);
+      with(name, at, tag + std::string("\x04\x00\x01\x00\x00\x00", 6) + size);
+    }
+  }
+  const MemoryLimit limit(256);
+  for (const char* name : { "radiance.hdr", "uint8.png", "uint8.jpg", "float.tif", "tiled.tif" })
+  {
+    EXPECT_TRUE(this->Read(seeds.at(name), name, 0).empty()) << name;
+  }
 }
 
 // Under another format's name a file is what it is, or an error. Mutant: a decoder chosen by the extension alone, which
