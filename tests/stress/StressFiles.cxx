@@ -33,6 +33,7 @@ void Write(const std::filesystem::path& path, const Kind& kind)
   spec.full_width = width;
   spec.full_height = height;
   spec.tile_width = spec.tile_height = kind.Tile;
+  spec.attribute("DateTime", "2000:01:01 00:00:00"); // or it would be now
   if (*kind.Compression)
   {
     spec.attribute("compression", kind.Compression);

@@ -28,6 +28,7 @@
 #include <map>
 #include <random>
 #include <set>
+#include <thread>
 
 namespace
 {
@@ -51,6 +52,7 @@ public:
       mallopt(M_ARENA_MAX, 1); // each other thread's would reserve 64 MiB
       std::size_t pages = 0;
       std::ifstream("/proc/self/statm") >> pages;
+      megabytes += 16 * std::thread::hardware_concurrency(); // stacks
       const rlimit tight = { pages * std::size_t(sysconf(_SC_PAGESIZE)) + (megabytes << 20), this->Usual.rlim_max };
       setrlimit(RLIMIT_AS, &tight);
     }
