@@ -26,8 +26,8 @@ struct Kind
 void Write(const std::filesystem::path& path, const Kind& kind)
 {
   const bool isCube = kind.Envmap == std::string("CubeFace Environment");
-  const int width = isCube ? 8 : 16;
-  const int height = isCube ? 48 : 8;
+  const int height = isCube ? 48 : std::max(8, kind.Tile); // whole tiles: what pads others is random
+  const int width = isCube ? 8 : 2 * height;
   OIIO::ImageSpec spec(width + 2 * kind.Margin, height + 2 * kind.Margin, kind.Channels, kind.Type);
   spec.x = spec.y = -kind.Margin;
   spec.full_width = width;

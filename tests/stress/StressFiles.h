@@ -6,5 +6,6 @@
 #include <filesystem>
 #include <vector>
 
-/// Writes them into a folder that is there, a few kilobytes each; panoramas of 16 x 8 and a cube. All can be read.
+/// Writes them into a folder that is there, a few kilobytes each; panoramas of 16 x 8, one of 32 x 16, and a cube. All
+/// can be read. The same bits each time.
 std::vector<std::filesystem::path> WriteStressFiles(const std::filesystem::path& folder);
