@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 runs=${1:-1000000}
 
-VTKIBL_STRESS=100 ./run-tests.sh release -R '^stress/'
+VTKIBL_STRESS=100 ./run-tests.sh release -R '^stress/' --timeout 7200
 
 cmake/install-dependencies.sh clang
 cmake --preset fuzz --log-level=WARNING
