@@ -265,7 +265,7 @@ TableWork MakeTable(vtkOpenGLRenderWindow* window, int samples)
   vtkSmartPointer<vtkImageData> image = table->Read();
   TableWork work;
   work.Read = [image](double NoV, double roughness) { return ReadTable(image, NoV, roughness); };
-  work.Bytes = 16LL * vtkIBLBRDFTable::Size * vtkIBLBRDFTable::Size; // two blocks of RGBA16
+  work.Bytes = 32LL * vtkIBLBRDFTable::Size * vtkIBLBRDFTable::Size; // two blocks of RGBA32F
   work.Run = [=] { return Rebuild(table, nullptr, nullptr, window); };
   return work;
 }

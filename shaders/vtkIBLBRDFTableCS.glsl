@@ -1,9 +1,9 @@
 // The split sum's A and B over (sqrt(NoV), perceptualRoughness), edge-aligned: the table's first block; the rest stays.
-// Reads and writes: table (image2D, rgba16).  Dispatch: (n / IBL_TILE, n / IBL_TILE, 1).
+// Reads and writes: table (image2D, rgba32f).  Dispatch: (n / IBL_TILE, n / IBL_TILE, 1).
 layout(local_size_x = IBL_TILE, local_size_y = IBL_TILE) in;
 uniform int geometry;
 uniform int sampleCount;
-layout(binding = 0, rgba16) uniform image2D table;
+layout(binding = 0, rgba32f) uniform image2D table;
 
 #include "vtkIBLDirectionFunctions.glsl"
 #include "vtkIBLSamplingFunctions.glsl"
