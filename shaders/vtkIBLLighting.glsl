@@ -67,7 +67,7 @@ iblBoundary iblGatherProbes(iblBoundary boundary, vec3 viewVC)
     boundary.probeRadiance += share * iblProbeReflection(probe, unit, direction, lobe.y);
     left -= share;
   }
-  boundary.skyScale = left * iblRadianceScale;
+  boundary.skyScale = left * vec3(iblRadianceScale);
   return boundary;
 }
 #define IBL_OF_THE_SKY boundary.skyScale *
@@ -78,7 +78,7 @@ iblBoundary iblGatherProbes(iblBoundary boundary, vec3 viewVC)
 iblDiffuse iblDiffuseLight(iblBoundary boundary, vec3 viewVC)
 {
   iblDiffuse light;
-  light.layers = IBL_OF_THE_SKY textureLod(iblIrradiance, iblEnvironmentFromView * boundary.normal, 0.0).rgb;
+  light.layers = IBL_OF_THE_SKY textureLod(iblIrradiance, iblToEnvironment(boundary.normal), 0.0).rgb;
 #ifdef IBL_PROBES
   light.layers += boundary.probeIrradiance;
 #endif
@@ -159,7 +159,7 @@ vec3 iblAnisotropicRadiance(iblBoundary boundary, vec3 viewVC, vec2 lobe)
     float weight = local.z > 0.0 ? iblV_SmithGGXAnisotropic(V, local, boundary.alpha) * local.z *
         max(dot(viewVC, H), 0.0) / dot(H, boundary.normal) : 0.0;
     vec3 direction = mix(H, L, lobe.x);
-    vec3 light = IBL_OF_THE_SKY iblLayerRadiance(iblEnvironmentFromView * direction, iblLayerFromPosition(lobe.y, iblLayers));
+    vec3 light = IBL_OF_THE_SKY iblLayerRadiance(iblToEnvironment(direction), iblLayerFromPosition(lobe.y, iblLayers));
 #ifdef IBL_PROBES
     for (int i = 0; i < iblProbeCount; ++i)
     {
@@ -189,7 +189,7 @@ vec3 iblReflectedLight(iblBoundary boundary, vec3 viewVC, vec3 layers)
 #endif
   {
     radiance = IBL_OF_THE_SKY iblLayerRadiance(
-      iblEnvironmentFromView * mix(boundary.normal, reflected, lobe.x), iblLayerFromPosition(lobe.y, iblLayers));
+      iblToEnvironment(mix(boundary.normal, reflected, lobe.x)), iblLayerFromPosition(lobe.y, iblLayers));
 #ifdef IBL_PROBES
     radiance += boundary.probeRadiance;
 #endif

@@ -65,7 +65,7 @@ iblBoundary iblGatherProbes(iblBoundary boundary, vec3 viewVC)
     boundary.probeShares[i] = left * iblProbeShare(probe, iblTransform(probe.unitFromView, vec4(boundary.position, 1.0)));
     left -= boundary.probeShares[i];
   }
-  boundary.skyScale = left * iblRadianceScale;
+  boundary.skyScale = left * vec3(iblRadianceScale);
   return boundary;
 }
 
@@ -96,7 +96,7 @@ vec3 iblSampleRadiance(iblBoundary boundary, vec3 direction, float pdf)
   }
   level = min(level, log2(max(nearest * faceSize / 3.0, 1.0))); // a texel is 2 / n wide in the middle of a face
 #endif
-  vec3 radiance = textureLod(iblRadiance, iblEnvironmentFromView * direction, max(level, 0.0)).rgb;
+  vec3 radiance = textureLod(iblRadiance, iblToEnvironment(direction), max(level, 0.0)).rgb;
 #ifdef IBL_PROBES
   radiance *= boundary.skyScale;
   for (int i = 0; i < iblProbeCount; ++i)

@@ -1,9 +1,13 @@
 // The surface's side of environment light, for VTK's mapper shaders (#version 150: no bindings, no compute): which boundaries reflect,
 // and what becomes of the light that they let through. Every global name begins with ibl, since VTK's own text is around it.
 //
-// Whoever includes this says what it needs, as text costs time even where it isn't taken:
+// Whoever includes this says what it needs, as text costs time even where it isn't taken, and so does each number of a
+// uniform: Mesa 22's llvmpipe gathers it for every pixel apart, 0.3 of a frame's 54 CPU-ms at 512^2.
 //   IBL_ENERGY       IBL_SINGLE_SCATTER, IBL_MULTIPLE_SCATTER, IBL_CLASSIC
 //   IBL_METAL, IBL_DIELECTRIC: the surface is known to be all of that
+//   IBL_WHITE_EDGES: metals are known to have an f90 of 1
+//   IBL_TINT: light is not scaled alike in all channels
+//   IBL_PARALLEL_PROJECTION; IBL_RIGID_VIEW: view space is turned, not scaled or mirrored
 //   IBL_ANISOTROPY, IBL_COAT, IBL_OCCLUSION, IBL_SPECULAR_OCCLUSION: defined or not
 //   IBL_BUMPED, IBL_HORIZON_OCCLUSION: the normal is bumped, and reflections end at the unbumped surface's horizon
 //   IBL_PROBES: there are local probes; all light is then scaled where it is read
@@ -16,12 +20,20 @@
 #define IBL_CLASSIC 2
 
 uniform sampler2D iblBRDFTable;
+#ifdef IBL_RIGID_VIEW
+uniform vec3 iblEnvironmentFromViewXY[2]; // a rotation's first two columns
+#else
 uniform mat3 iblEnvironmentFromView;
+#endif
+#ifdef IBL_TINT
 uniform vec3 iblRadianceScale; // from the light as it is stored to the scene's: exposure, intensity, tint
-uniform int iblParallelProjection;
+#else
+uniform float iblRadianceScale;
+#endif
 
 #include "vtkIBLEnergyFunctions.glsl"
 #ifdef IBL_PROBES
+uniform bool iblParallelProjection; // what they capture is not
 #include "vtkIBLProbes.glsl"
 #define IBL_OUTGOING_SCALE vec3(1.0)
 #else
@@ -108,9 +120,25 @@ iblBoundary iblGatherProbes(iblBoundary boundary, vec3 viewVC);
 iblDiffuse iblDiffuseLight(iblBoundary boundary, vec3 viewVC);
 vec3 iblReflectedLight(iblBoundary boundary, vec3 viewVC, vec3 layers);
 
+vec3 iblToEnvironment(vec3 directionVC)
+{
+#ifdef IBL_RIGID_VIEW
+  return mat3(iblEnvironmentFromViewXY[0], iblEnvironmentFromViewXY[1],
+    cross(iblEnvironmentFromViewXY[0], iblEnvironmentFromViewXY[1])) * directionVC;
+#else
+  return iblEnvironmentFromView * directionVC;
+#endif
+}
+
 vec3 iblViewDirection(vec3 positionVC)
 {
-  return iblParallelProjection != 0 ? vec3(0.0, 0.0, 1.0) : normalize(-positionVC);
+#if defined(IBL_PROBES)
+  return iblParallelProjection ? vec3(0.0, 0.0, 1.0) : normalize(-positionVC);
+#elif defined(IBL_PARALLEL_PROJECTION)
+  return vec3(0.0, 0.0, 1.0);
+#else
+  return normalize(-positionVC);
+#endif
 }
 
 // Below an f0 of 2 % it is no reflection but occlusion (Lagarde & de Rousiers 2014), as in VTK.
@@ -169,6 +197,9 @@ vec3 iblOnce(vec3 f0, vec3 f90, iblBoundary boundary)
 // Environment light from a material at positionVC.
 iblOutgoing iblEnvironmentLight(iblMaterial material, vec3 positionVC)
 {
+#ifdef IBL_WHITE_EDGES
+  material.edgeTint = vec3(1.0);
+#endif
   vec3 viewVC = iblViewDirection(positionVC);
   iblBoundary surface = iblMakeBoundary(material, material.normal, positionVC, viewVC, material.perceptualRoughness);
 #ifdef IBL_ANISOTROPY

@@ -213,10 +213,20 @@ void vtkIBLLighting::GetEnvironmentFromView(vtkRenderer* renderer, float columns
   double worldFromView[3][3];
   vtkMath::Invert3x3(linear, worldFromView);
   vtkMath::Multiply3x3(environmentFromWorld, worldFromView, linear);
+  const double length = std::hypot(linear[0][0], linear[1][0], linear[2][0]);
   for (int i = 0; i < 9; ++i)
   {
-    columns[i] = static_cast<float>(linear[i % 3][i / 3]);
+    columns[i] = static_cast<float>(linear[i % 3][i / 3] / length);
   }
+}
+
+bool vtkIBLLighting::IsViewRigid(vtkRenderer* renderer)
+{
+  glm::mat3 m;
+  this->GetEnvironmentFromView(renderer, &m[0].x);
+  // Of columns of which one has the length 1: a cross product that is the third tells that all have, at right angles.
+  return glm::distance(glm::cross(m[0], m[1]), m[2]) < 1e-5f && std::abs(glm::dot(m[1], m[1]) - 1.0f) < 1e-5f &&
+    std::abs(glm::dot(m[0], m[1])) < 1e-5f;
 }
 
 void vtkIBLLighting::SetLayerParameters(const vtkIBLGL::Program& program) const
@@ -319,6 +329,8 @@ void vtkIBLLighting::SetShaderParameters(vtkShaderProgram* program, vtkRenderer*
   float environmentFromView[9];
   this->GetEnvironmentFromView(renderer, environmentFromView);
   program->SetUniformMatrix3x3("iblEnvironmentFromView", environmentFromView);
+  program->SetUniformi("iblParallelProjection", renderer->GetActiveCamera()->GetParallelProjection());
+  program->SetUniform3fv("iblEnvironmentFromViewXY", 2, reinterpret_cast<const float(*)[3]>(environmentFromView));
   if (this->BrightTexels)
   {
     this->SetLamps(program, environmentFromView);
@@ -326,8 +338,14 @@ void vtkIBLLighting::SetShaderParameters(vtkShaderProgram* program, vtkRenderer*
   double rgb[3];
   this->GetEnvironment()->GetRadianceScale(rgb);
   const float scale[3] = { float(rgb[0] * stored), float(rgb[1] * stored), float(rgb[2] * stored) };
-  program->SetUniform3f("iblRadianceScale", scale);
-  program->SetUniformi("iblParallelProjection", renderer->GetActiveCamera()->GetParallelProjection());
+  if (this->IsTinted())
+  {
+    program->SetUniform3f("iblRadianceScale", scale);
+  }
+  else
+  {
+    program->SetUniformf("iblRadianceScale", scale[0]);
+  }
 }
 
 void vtkIBLLighting::SetLamps(vtkShaderProgram* program, const float environmentFromView[9])
@@ -361,6 +379,13 @@ void vtkIBLLighting::SetLamps(vtkShaderProgram* program, const float environment
   }
 }
 
+bool vtkIBLLighting::IsTinted() const
+{
+  double rgb[3];
+  this->GetEnvironment()->GetRadianceScale(rgb);
+  return rgb[0] != rgb[1] || rgb[1] != rgb[2];
+}
+
 void vtkIBLLighting::UpdateShaderText()
 {
   const int lamps = this->BrightTexels ? this->SpecularChain->GetNumberOfLamps() - this->GetFirstLamp() : 0;
@@ -375,6 +400,8 @@ void vtkIBLLighting::UpdateShaderText()
   define(this->ReadsProbes, "IBL_PROBES");
   define(!this->Needs.Metal, "IBL_DIELECTRIC");
   define(!this->Needs.Dielectric && this->Needs.Metal, "IBL_METAL");
+  define(!this->Needs.EdgeTint, "IBL_WHITE_EDGES");
+  define(this->IsTinted(), "IBL_TINT");
   define(this->SpecularOcclusion, "IBL_SPECULAR_OCCLUSION");
   define(this->HorizonOcclusion, "IBL_HORIZON_OCCLUSION");
   const char* file = this->SamplesPerPixel > 0 ? "vtkIBLLightingSampled.glsl" : "vtkIBLLighting.glsl";

@@ -196,9 +196,16 @@ public:
   void ReleaseGraphicsResources(vtkWindow* window);
 
   /**
-   * Rotation from `renderer`'s view space to the environment's, column by column, as OpenGL takes it.
+   * Rotation from `renderer`'s view space to the environment's, column by column, as OpenGL takes it; the first has the
+   * length 1.
    */
   void GetEnvironmentFromView(vtkRenderer* renderer, float columns[9]);
+
+  /**
+   * Whether that is a rotation; a camera's user transform may scale or mirror. Then its shaders may have IBL_RIGID_VIEW
+   * among their features, which is faster.
+   */
+  bool IsViewRigid(vtkRenderer* renderer);
 
 protected:
   vtkIBLLighting();
@@ -218,6 +225,7 @@ private:
   vtkNew<vtkIBLBRDFTable> BRDFTable;
   void UpdateShaderText();
   void SetLamps(vtkShaderProgram* program, const float environmentFromView[9]);
+  bool IsTinted() const;
   int GetFirstLamp() const { return this->SunInEnvironment ? 0 : 1; }
   int ReflectionModel = Physical;
   bool EnergyCompensation = true;

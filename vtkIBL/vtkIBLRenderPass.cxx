@@ -116,6 +116,7 @@ public:
       this->Lights->RemoveItem(this->Light);
     }
   }
+  bool IsOn() const { return this->Lights != nullptr; }
   StandInLight(const StandInLight&) = delete;
   StandInLight& operator=(const StandInLight&) = delete;
 
@@ -219,6 +220,15 @@ void vtkIBLRenderPass::SetShaderOption(T& option, T value)
   }
 }
 
+void vtkIBLRenderPass::SetShaderState(bool& state, bool value)
+{
+  if (value != state)
+  {
+    state = value;
+    this->ShaderTime.Modified();
+  }
+}
+
 void vtkIBLRenderPass::SetOutputEncoding(int encoding)
 {
   if (encoding != Display && encoding != Linear)
@@ -290,11 +300,7 @@ void vtkIBLRenderPass::Render(const vtkRenderState* state)
   const bool lit = window &&
     (renderer->GetSelector() ? this->Lit && this->Lighting->GetBRDFTable()->GetTexture().IsIn(window)
                              : this->Lighting->Update(window, needs));
-  if (lit != this->Lit)
-  {
-    this->Lit = lit;
-    this->ShaderTime.Modified();
-  }
+  this->SetShaderState(this->Lit, lit);
   if (!lit)
   {
     this->RenderScene(state);
@@ -328,6 +334,9 @@ void vtkIBLRenderPass::Render(const vtkRenderState* state)
     }
     const MarkedProps marked(props, this);
     const StandInLight light(renderer->GetLights(), this->NoLight);
+    this->SetShaderState(this->WithoutLights, light.IsOn());
+    this->SetShaderState(this->ParallelProjection, renderer->GetActiveCamera()->GetParallelProjection() != 0);
+    this->SetShaderState(this->RigidView, this->Lighting->IsViewRigid(renderer));
     if (hasProbes && !renderer->GetSelector())
     {
       this->UpdateProbes(state, captured);
@@ -747,6 +756,14 @@ bool vtkIBLRenderPass::PostReplaceShaderValues(
     return true;
   }
   std::vector<std::string> features;
+  if (this->ParallelProjection)
+  {
+    features.push_back("IBL_PARALLEL_PROJECTION");
+  }
+  if (this->RigidView)
+  {
+    features.push_back("IBL_RIGID_VIEW");
+  }
   const std::string evaluate = "  iblOutgoing iblLight = iblEnvironmentLight(iblSurface, vertexVC.xyz);\n";
   const std::string add = this->TranslucentFresnel ? AddTranslucent : AddAll;
   const std::string emission = "  color += emissiveColor;\n";
@@ -755,9 +772,10 @@ bool vtkIBLRenderPass::PostReplaceShaderValues(
   {
     const std::string bump = "  vec3 normalTS = ";
     const bool bumped = Replace(fragmentShader, bump, "  vec3 iblGeometricNormal = normalVCVSOutput;\n" + bump);
-    // VTK's own D is 0/0 at roughness 0 where H = N, even for a light of intensity 0.
+    // VTK's own D is 0/0 at roughness 0 where H = N.
     const std::string direct = "  color += Lo;\n";
-    Replace(fragmentShader, direct, "#ifdef IBL_MIRROR\n  Lo = mix(Lo, vec3(0.0), isnan(Lo));\n#endif\n" + direct);
+    Replace(fragmentShader, direct,
+      this->WithoutLights ? "" : "#ifdef IBL_MIRROR\n  Lo = mix(Lo, vec3(0.0), isnan(Lo));\n#endif\n" + direct);
     if (!this->DirectOcclusion)
     {
       Replace(fragmentShader, "  color = mix(color, color * ao, aoStrengthUniform);\n", "");

@@ -203,6 +203,7 @@ private:
 
   template <typename T>
   void SetShaderOption(T& option, T value);
+  void SetShaderState(bool& state, bool value);
 
   vtkNew<vtkIBLLighting> Lighting;
   vtkNew<vtkIBLProbeCollection> Probes;
@@ -216,7 +217,10 @@ private:
   bool LightNonPBR = false;
   bool TranslucentFresnel = false;
   bool DirectOcclusion = true;
-  bool Lit = false;                                     // there is light to add in this frame
+  bool Lit = false;                // there is light to add in this frame
+  bool WithoutLights = false;      // nor any light but this pass's own
+  bool ParallelProjection = false; // and how it is seen
+  bool RigidView = false;
   vtkRenderer* Renderer = nullptr;                      // while Render runs
   vtkTimeStamp ShaderTime;                              // when the GLSL that the hooks write last changed
   std::unique_ptr<vtkIBLAccumulation> Accumulations[2]; // by OutputEncoding

@@ -25,6 +25,7 @@ void vtkIBLSceneNeeds::Add(const vtkIBLSceneNeeds& other)
   this->RadianceCube = this->RadianceCube || other.RadianceCube;
   this->Metal = this->Metal || other.Metal;
   this->Dielectric = this->Dielectric || other.Dielectric;
+  this->EdgeTint = this->EdgeTint || other.EdgeTint;
   this->AddRoughness(other.MinimumRoughness, other.MaximumRoughness);
 }
 
@@ -36,7 +37,7 @@ bool vtkIBLSceneNeeds::NeedsMirror() const
 vtkIBLSceneNeeds vtkIBLSceneNeeds::Everything()
 {
   vtkIBLSceneNeeds needs;
-  needs.Irradiance = needs.Metal = needs.Dielectric = true;
+  needs.Irradiance = needs.Metal = needs.Dielectric = needs.EdgeTint = true;
   needs.AddRoughness(0.0, 1.0);
   return needs;
 }
@@ -75,6 +76,8 @@ vtkIBLSceneNeeds OfActor(vtkActor* actor, bool nonPBR)
   const bool textured = property->GetTexture("materialTex") != nullptr;
   needs.Metal = isPBR && (textured || property->GetMetallic() > 0.0);
   needs.Dielectric = !isPBR || textured || property->GetMetallic() < 1.0;
+  const double* edgeTint = property->GetEdgeTint();
+  needs.EdgeTint = needs.Metal && std::any_of(edgeTint, edgeTint + 3, [](double tint) { return tint != 1.0; });
   if (!isPBR)
   {
     if (property->GetSpecular() > 0.0)

@@ -35,6 +35,11 @@ struct VTKIBL_EXPORT vtkIBLSceneNeeds
    */
   bool Metal = false;
   bool Dielectric = false;
+
+  /**
+   * Some metal may have an edge tint other than white.
+   */
+  bool EdgeTint = false;
   ///@}
 
   /**
