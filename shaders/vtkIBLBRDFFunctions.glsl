@@ -14,13 +14,25 @@ float iblD_GGX(float cos2, float sin2, float alpha)
   return a2 / (iblPi * d * d);
 }
 
+// What Smith's masking along a direction takes the root of: sqrt(cos^2 + alpha^2 sin^2).
+float iblSmithRoot(float cosine, float alpha2)
+{
+  return sqrt(cosine * cosine * (1.0 - alpha2) + alpha2);
+}
+
+// D V without the half vector, as |V + L|^2 = 2 (1 + VoL): cosines is NoV + NoL, VoL1 is 1 + VoL, masking what
+// V_SmithGGXCorrelated divides by. D may have another alpha than it.
+float iblLobeGGX(float cosines, float VoL1, float masking, float alpha2)
+{
+  float d = 2.0 * VoL1 - cosines * cosines * (1.0 - alpha2);
+  return (2.0 / iblPi) * alpha2 * VoL1 * VoL1 / (d * d * masking);
+}
+
 // Height-correlated Smith visibility, G / (4 NoL NoV) (Heitz 2014, eq. 99).
 float iblV_SmithGGXCorrelated(float NoV, float NoL, float alpha)
 {
   float a2 = alpha * alpha;
-  float view = NoL * sqrt(NoV * NoV * (1.0 - a2) + a2);
-  float light = NoV * sqrt(NoL * NoL * (1.0 - a2) + a2);
-  return 0.5 / (view + light);
+  return 0.5 / (NoL * iblSmithRoot(NoV, a2) + NoV * iblSmithRoot(NoL, a2));
 }
 
 // Anisotropic GGX [1/sr] of a half vector (along tangent, bitangent, normal) and alphas along the first two (Burley 2012).

@@ -21,6 +21,12 @@ vec3 iblFittedLobe(iblBoundary boundary)
     mix(boundary.lobes.xy, boundary.lobes.zw, share), mix(boundary.reflection.z, boundary.reflection.w, share));
 }
 
+// (1 - bend) N + bend R
+vec3 iblLobeDirection(iblBoundary boundary, vec3 viewVC, float bend)
+{
+  return (1.0 + bend * (2.0 * dot(boundary.normal, viewVC) - 1.0)) * boundary.normal - bend * viewVC;
+}
+
 #ifdef IBL_PROBES
 uniform samplerCubeArray iblProbeOddLayers;
 uniform samplerCubeArray iblProbeEvenLayers;
@@ -52,7 +58,7 @@ vec3 iblProbeIrradiance(iblProbe probe, vec3 unit, vec3 normalVC)
 iblBoundary iblGatherProbes(iblBoundary boundary, vec3 viewVC)
 {
   vec3 lobe = iblFittedLobe(boundary);
-  vec3 direction = mix(boundary.normal, reflect(-viewVC, boundary.normal), lobe.x);
+  vec3 direction = iblLobeDirection(boundary, viewVC, lobe.x);
   boundary.probeShares = vec4(0.0);
   boundary.probeIrradiance = vec3(0.0);
   boundary.probeRadiance = vec3(0.0);
@@ -84,10 +90,12 @@ iblDiffuse iblDiffuseLight(iblBoundary boundary, vec3 viewVC)
 #endif
   light.irradiance = light.layers;
 #if IBL_LAMPS > 0
+  vec3 lamps = vec3(0.0);
   for (int i = 0; i < IBL_LAMPS; ++i)
   {
-    light.irradiance += IBL_OF_THE_SKY iblLampPowers[i] * (max(dot(boundary.normal, iblLampDirections[i].xyz), 0.0) / iblPi);
+    lamps += iblLampPowers[i] * max(dot(boundary.normal, iblLampDirections[i].xyz), 0.0);
   }
+  light.irradiance += IBL_OF_THE_SKY lamps * (1.0 / iblPi);
 #endif
 #if IBL_ENERGY == IBL_SINGLE_SCATTER
   light.refracted = light.irradiance * (vec3(1.0) - boundary.f0 - (boundary.f90 - boundary.f0) * iblDiffuseFresnel(boundary.NoV));
@@ -103,37 +111,45 @@ iblDiffuse iblDiffuseLight(iblBoundary boundary, vec3 viewVC)
 vec3 iblReflectedLamps(iblBoundary boundary, vec3 viewVC)
 {
   float alpha = iblAlpha(max(boundary.perceptualRoughness, IBL_FIRST_ROUGHNESS));
-  vec3 sum = vec3(0.0);
+  float alpha2 = alpha * alpha;
+  float view = iblSmithRoot(boundary.NoV, alpha2);
+  float unclampedNoV = dot(boundary.normal, viewVC);
+  vec3 always = vec3(0.0); // what f0 reflects, and f90 - f0 more
+  vec3 grazing = vec3(0.0);
   for (int i = 0; i < IBL_LAMPS; ++i)
   {
     vec3 L = iblLampDirections[i].xyz;
     float NoL = dot(boundary.normal, L);
-    vec3 H = normalize(viewVC + L);
-    float VoH = clamp(dot(viewVC, H), 0.0, 1.0);
-    float lobe;
+    float VoL1 = max(1.0 + dot(viewVC, L), 1e-6);
+    float lobe = max(NoL, 0.0);
 #ifdef IBL_ANISOTROPY
     if (boundary.anisotropic)
     {
       mat3 tangentFromView = transpose(mat3(boundary.tangent, boundary.bitangent, boundary.normal));
       vec2 alphas = sqrt(boundary.alpha * boundary.alpha + vec2(iblLampDirections[i].w));
       vec3 V = tangentFromView * viewVC;
-      lobe = iblD_GGXAnisotropic(tangentFromView * H, alphas) *
-        iblV_SmithGGXAnisotropic(vec3(V.xy, boundary.NoV), vec3((tangentFromView * L).xy, max(NoL, 0.0)), boundary.alpha);
+      lobe *= iblD_GGXAnisotropic(tangentFromView * normalize(viewVC + L), alphas) *
+        iblV_SmithGGXAnisotropic(vec3(V.xy, boundary.NoV), vec3((tangentFromView * L).xy, lobe), boundary.alpha);
     }
     else
 #endif
     {
-      float cos2 = dot(boundary.normal, H);
-      cos2 *= cos2;
-      lobe = iblD_GGX(cos2, 1.0 - cos2, sqrt(alpha * alpha + iblLampDirections[i].w)) *
-        iblV_SmithGGXCorrelated(boundary.NoV, max(NoL, 0.0), alpha);
+      float masking = lobe * view + boundary.NoV * iblSmithRoot(lobe, alpha2);
+      lobe *= iblLobeGGX(unclampedNoV + NoL, VoL1, masking, alpha2 + iblLampDirections[i].w);
     }
 #ifdef IBL_HORIZON
     lobe *= dot(boundary.geometricNormal, L) > 0.0 ? 1.0 : 0.0;
 #endif
-    sum += iblLampPowers[i] * (max(NoL, 0.0) * lobe) * iblF_Schlick(boundary.f0, boundary.f90, VoH);
+    float rise = 1.0 - sqrt(0.5 * VoL1);
+    float rise2 = rise * rise;
+    always += lobe * iblLampPowers[i];
+    grazing += (lobe * (rise2 * rise2 * rise)) * iblLampPowers[i];
   }
-  return IBL_OF_THE_SKY (min(boundary.perceptualRoughness / IBL_FIRST_ROUGHNESS, 1.0) * sum);
+  vec3 reflected = boundary.f0 * always + (boundary.f90 - boundary.f0) * grazing;
+#ifdef IBL_MIRROR
+  reflected *= min(boundary.perceptualRoughness / IBL_FIRST_ROUGHNESS, 1.0);
+#endif
+  return IBL_OF_THE_SKY reflected;
 }
 #endif
 
@@ -178,7 +194,6 @@ vec3 iblAnisotropicRadiance(iblBoundary boundary, vec3 viewVC, vec2 lobe)
 vec3 iblReflectedLight(iblBoundary boundary, vec3 viewVC, vec3 layers)
 {
   vec3 lobe = iblFittedLobe(boundary);
-  vec3 reflected = reflect(-viewVC, boundary.normal);
   vec3 radiance;
 #ifdef IBL_ANISOTROPY
   if (boundary.anisotropic)
@@ -189,14 +204,14 @@ vec3 iblReflectedLight(iblBoundary boundary, vec3 viewVC, vec3 layers)
 #endif
   {
     radiance = IBL_OF_THE_SKY iblLayerRadiance(
-      iblToEnvironment(mix(boundary.normal, reflected, lobe.x)), iblLayerFromPosition(lobe.y, iblLayers));
+      iblToEnvironment(iblLobeDirection(boundary, viewVC, lobe.x)), iblLayerFromPosition(lobe.y, iblLayers));
 #ifdef IBL_PROBES
     radiance += boundary.probeRadiance;
 #endif
   }
   radiance = boundary.once * mix(radiance, layers, lobe.z);
 #ifdef IBL_HORIZON
-  radiance *= iblHorizonFade(dot(reflected, boundary.geometricNormal));
+  radiance *= iblHorizonFade(dot(reflect(-viewVC, boundary.normal), boundary.geometricNormal));
 #endif
 #if IBL_LAMPS > 0
   radiance += iblReflectedLamps(boundary, viewVC);
