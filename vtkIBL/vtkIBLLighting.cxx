@@ -348,6 +348,12 @@ void vtkIBLLighting::SetShaderParameters(vtkShaderProgram* program, vtkRenderer*
   }
 }
 
+int vtkIBLLighting::GetLampsEnd() const
+{
+  return this->SamplesPerPixel > 0 ? this->SpecularChain->GetNumberOfSampledLamps()
+                                   : this->SpecularChain->GetNumberOfLamps();
+}
+
 void vtkIBLLighting::SetLamps(vtkShaderProgram* program, const float environmentFromView[9])
 {
   const glm::mat3 viewFromEnvironment = glm::inverse(glm::make_mat3(environmentFromView));
@@ -355,7 +361,7 @@ void vtkIBLLighting::SetLamps(vtkShaderProgram* program, const float environment
   float powers[IBL_MAXIMUM_LAMPS][3];
   const bool sampled = this->SamplesPerPixel > 0;
   int count = 0;
-  for (int i = this->GetFirstLamp(); i < this->SpecularChain->GetNumberOfLamps(); ++i, ++count)
+  for (int i = this->GetFirstLamp(); i < this->GetLampsEnd(); ++i, ++count)
   {
     double direction[3];
     double power[3];
@@ -388,7 +394,7 @@ bool vtkIBLLighting::IsTinted() const
 
 void vtkIBLLighting::UpdateShaderText()
 {
-  const int lamps = this->BrightTexels ? this->SpecularChain->GetNumberOfLamps() - this->GetFirstLamp() : 0;
+  const int lamps = this->BrightTexels ? this->GetLampsEnd() - this->GetFirstLamp() : 0;
   std::string defines = "#define IBL_LAMPS " + std::to_string(std::max(lamps, 0)) + "\n";
   const char* energy = this->ReflectionModel == Classic ? "IBL_CLASSIC"
     : this->EnergyCompensation                          ? "IBL_MULTIPLE_SCATTER"

@@ -13,9 +13,11 @@
 #include "vtkIBLThreads.h"
 
 #include "vtkImageData.h"
+#include "vtkMath.h"
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <tuple>
 #include <vector>
@@ -29,16 +31,29 @@ namespace
 // At 32^2 the cosine lobe is read to 3e-4.
 constexpr int IrradianceFaceSize = 32;
 
-// Takes the strongest lamps out of `spectrum`.
-std::vector<vtkIBLLampCluster> TakeLamps(std::shared_ptr<const vtkIBLSpectrum>& spectrum)
+// Of all light, what a lamp has at least. Shading errs by 4.22 % of eight HDRIs' light with no such bound, 4.26 with
+// this one and 9.02 with no lamp; a frame pays 3 % for each lamp, and has 2.5 of them in place of 3.4.
+constexpr double LeastLampShare = 0.02;
+
+// The strongest lamps; takes those that are to be lights, `apart` of them, out of `spectrum`.
+std::vector<vtkIBLLampCluster> TakeLamps(std::shared_ptr<const vtkIBLSpectrum>& spectrum, int& apart)
 {
   const std::vector<vtkIBLBrightTexel>& all = spectrum->GetBrightTexels();
   std::vector<vtkIBLLampCluster> lamps = vtkIBLFindLampClusters(all, vtkIBLSpectrum::LampRadius);
-  lamps.resize(std::min(lamps.size(), std::size_t(IBL_MAXIMUM_LAMPS)));
-  std::vector<bool> taken(all.size(), false);
-  for (const vtkIBLLampCluster& lamp : lamps)
+  const auto sum = [](const glm::dvec3& rgb) { return rgb.r + rgb.g + rgb.b; };
+  double light = std::sqrt(4.0 * vtkMath::Pi()) * sum(spectrum->GetCoefficient(0, 0).first);
+  for (const vtkIBLLampCluster& cluster : lamps)
   {
-    for (int i : lamp.Texels)
+    light += sum(cluster.Power);
+  }
+  lamps.resize(std::min(lamps.size(), std::size_t(IBL_MAXIMUM_LAMPS)));
+  const auto weak = std::find_if(lamps.begin(), lamps.end(),
+    [&](const vtkIBLLampCluster& lamp) { return sum(lamp.Power) < LeastLampShare * light; });
+  apart = static_cast<int>(weak - lamps.begin());
+  std::vector<bool> taken(all.size(), false);
+  for (auto lamp = lamps.begin(); lamp != weak; ++lamp)
+  {
+    for (int i : lamp->Texels)
     {
       taken[i] = true;
     }
@@ -73,7 +88,8 @@ struct vtkIBLSpecularChain::Layers
   double StoredScale = 1.0;
   bool LampsApart = false;
   std::vector<vtkIBLBrightTexel> BrightTexels;
-  std::vector<vtkIBLLampCluster> Lamps; // what layers are without
+  std::vector<vtkIBLLampCluster> Lamps;
+  int NumberOfLampsApart = 0; // of these: what layers are without
   Texture Odd, Even, IrradianceMap;
   std::vector<bool> Made; // by layer; 0 is the irradiance map
   const Texture& GetTexture(int layer) const
@@ -197,6 +213,11 @@ double vtkIBLSpecularChain::GetBrightTexel(int index, double direction[3], doubl
 
 int vtkIBLSpecularChain::GetNumberOfLamps() const
 {
+  return this->Internal->Out.NumberOfLampsApart;
+}
+
+int vtkIBLSpecularChain::GetNumberOfSampledLamps() const
+{
   return static_cast<int>(this->Internal->Out.Lamps.size());
 }
 
@@ -289,7 +310,7 @@ std::vector<vtkIBLStatistics::Work> vtkIBLSpecularChain::Build(vtkOpenGLRenderWi
     next.BrightTexels = spectrum->GetBrightTexels();
     if (next.LampsApart)
     {
-      next.Lamps = TakeLamps(spectrum);
+      next.Lamps = TakeLamps(spectrum, next.NumberOfLampsApart);
     }
   }
   if (sameSource && next.Sharpest >= gl.Out.Sharpest)

@@ -104,8 +104,8 @@ public:
   ///@{
   /**
    * Leave the strongest lamps, at most eight, out of layers and irradiance map, for a shader that takes them as lights.
-   * A lamp is what lies side by side of texels above 20 times the mean, within 0.05 rad. Default off: all light is in
-   * the layers. The sampled engine has no lamps.
+   * A lamp is what lies side by side of texels above 20 times the mean, within 0.05 rad, and has 2 % of all light or
+   * more. Default off: all light is in the layers. The sampled engine has no lamps.
    */
   vtkSetMacro(LampsApart, bool);
   vtkGetMacro(LampsApart, bool);
@@ -119,6 +119,7 @@ public:
    * it, lies within the radius [rad].
    */
   int GetNumberOfLamps() const;
+  int GetNumberOfSampledLamps() const; // with weaker ones behind them, which layers have and samples go to
   double GetLamp(int index, double direction[3], double power[3]) const;
   double GetLampRadius(int index) const;
   ///@}
