@@ -2,7 +2,7 @@
 // and what becomes of the light that they let through. Every global name begins with ibl, since VTK's own text is around it.
 //
 // Whoever includes this says what it needs, as text costs time even where it isn't taken, and so does each number of a
-// uniform: Mesa 22's llvmpipe gathers it for every pixel apart, 0.3 of a frame's 54 CPU-ms at 512^2.
+// uniform: Mesa 22's llvmpipe gathers it for every pixel apart, 0.2 to 0.3 of a frame's 54 CPU-ms at 512^2.
 //   IBL_ENERGY       IBL_SINGLE_SCATTER, IBL_MULTIPLE_SCATTER, IBL_CLASSIC
 //   IBL_METAL, IBL_DIELECTRIC: the surface is known to be all of that
 //   IBL_WHITE_EDGES: metals are known to have an f90 of 1

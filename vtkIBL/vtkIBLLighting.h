@@ -139,8 +139,8 @@ public:
    * 0, the default: shade by prefiltered layers and the table, at a handful of texture reads a pixel. Above: estimate
    * the reflection integral itself with so many samples a pixel of the surface's density, and twice as many of the
    * lamps', read from the cube map: slow, and what the fast form is judged by. At most 8192 (llvmpipe ends a shader's
-   * loops after 65535 turns in all); vtkIBLRenderPass adds as many with every frame of a scene at rest. Takes effect with the
-   * next frame.
+   * loops after 65535 turns in all); vtkIBLRenderPass adds as many with every frame of a scene at rest. Takes effect
+   * with the next frame.
    */
   vtkSetClampMacro(SamplesPerPixel, int, 0, 8192);
   vtkGetMacro(SamplesPerPixel, int);

@@ -31,8 +31,8 @@ namespace
 // At 32^2 the cosine lobe is read to 3e-4.
 constexpr int IrradianceFaceSize = 32;
 
-// Of all light, what a lamp has at least. Shading errs by 4.22 % of eight HDRIs' light with no such bound, 4.26 with
-// this one and 9.02 with no lamp; a frame pays 3 % for each lamp, and has 2.5 of them in place of 3.4.
+// Of all light, what a lamp has at least. Shading errs by 4.22 % on eight HDRIs with no such bound, by 4.26 with this
+// one and by 9.02 with no lamp; a frame pays 5 % for each lamp, and has 2.5 of them on average in place of 3.4.
 constexpr double LeastLampShare = 0.02;
 
 // The strongest lamps; takes those that are to be lights, `apart` of them, out of `spectrum`.
@@ -350,7 +350,7 @@ std::vector<vtkIBLStatistics::Work> vtkIBLSpecularChain::Build(vtkOpenGLRenderWi
     {
       glTextureParameteri(layers->Id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
     }
-    // A map so small is in floats where it is uploaded: a frame's read of it costs llvmpipe a fifth less.
+    // So small a map is in floats where it is uploaded: llvmpipe reads them faster than halves.
     out.IrradianceMap = Texture::Cube(window, IrradianceFaceSize, 1, out.Engine == Spectral ? GL_RGBA32F : GL_RGBA16F);
     // A matt surface reads a layer that nobody made, times 0; what a new texture holds may be NaN.
     for (int level = 0; level < levels; ++level)
