@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) vtkIBL authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What the longer examples share: writing the picture and telling what the light cost.
+// What the longer examples share: an actor of a material, writing the picture, telling what the light cost.
 #pragma once
 
 #include "vtkIBLBRDFTable.h"
@@ -10,23 +10,52 @@
 #include "vtkIBLRenderPass.h"
 #include "vtkIBLSpecularChain.h"
 
+#include <vtkActor.h>
+#include <vtkAlgorithm.h>
 #include <vtkErrorCode.h>
+#include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
 #include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 #include <vtkWindowToImageFilter.h>
 
 #include <cstdio>
 #include <string>
 
-inline bool WritePicture(vtkRenderWindow* window, const std::string& fileName)
+// Of physically based material; `color` is linear albedo.
+inline vtkSmartPointer<vtkActor> AddActor(
+  vtkRenderer* renderer, vtkAlgorithm* source, const double color[3], double metallic, double roughness)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(source->GetOutputPort());
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetInterpolationToPBR();
+  actor->GetProperty()->SetColor(color[0], color[1], color[2]);
+  actor->GetProperty()->SetMetallic(metallic);
+  actor->GetProperty()->SetRoughness(roughness);
+  renderer->AddActor(actor);
+  return actor;
+}
+
+inline vtkSmartPointer<vtkImageData> TakePicture(vtkRenderWindow* window)
 {
   vtkNew<vtkWindowToImageFilter> picture;
   picture->SetInput(window);
   picture->ReadFrontBufferOff();
   picture->ShouldRerenderOff();
+  picture->Update();
+  return picture->GetOutput();
+}
+
+inline bool WritePicture(vtkImageData* picture, const std::string& fileName)
+{
   vtkNew<vtkPNGWriter> writer;
-  writer->SetInputConnection(picture->GetOutputPort());
+  writer->SetInputData(picture);
   writer->SetFileName(fileName.c_str());
   writer->Write();
   if (writer->GetErrorCode() != vtkErrorCode::NoError)
@@ -37,6 +66,11 @@ inline bool WritePicture(vtkRenderWindow* window, const std::string& fileName)
   }
   std::printf("wrote %s\n", fileName.c_str());
   return true;
+}
+
+inline bool WritePicture(vtkRenderWindow* window, const std::string& fileName)
+{
+  return WritePicture(TakePicture(window), fileName);
 }
 
 inline void PrintStages(vtkIBLRenderPass* ibl)
