@@ -408,3 +408,8 @@ bool vtkIBLProbe::ReadFile(const char* fileName)
     return false;
   }
 }
+
+bool vtkIBLProbe::CanReadFile(const char* fileName)
+{
+  return vtkIBLIsProbeFile(fileName);
+}

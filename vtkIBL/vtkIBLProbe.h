@@ -192,10 +192,11 @@ public:
   /**
    * Keeps `radiance`, n x n x 6 RGB as vtkIBLRenderPass::CaptureProbe() gives it, with this probe's place, proxy,
    * influence and intensity in one OpenEXR file of six parts, which other tools show; and reads such a file: its light
-   * becomes the Environment. False, with an error, when that fails; a failed reading changes nothing.
+   * becomes the Environment. False, with an error, when that fails; then an older file, or the probe, stays as it was.
    */
   bool WriteFile(const char* fileName, vtkImageData* radiance);
   bool ReadFile(const char* fileName);
+  static bool CanReadFile(const char* fileName); // by its header
   ///@}
 
 #ifndef __VTK_WRAP__

@@ -16,10 +16,17 @@
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
+#include <unistd.h>
+
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -27,9 +34,12 @@
 #include <string>
 #include <vector>
 
+namespace fs = std::filesystem;
+
 namespace
 {
 constexpr int LargestFaceSize = 4096;
+const char* const PositionName = "vtkIBL.probe.position"; // its being there makes the file a probe's
 const char* const FaceNames[] = { "+X", "-X", "+Y", "-Y", "+Z", "-Z" };
 
 // All that a file says of a probe.
@@ -43,7 +53,7 @@ struct Facts
 template <typename TFacts, typename Visitor>
 void Visit(TFacts& facts, bool ownInfluence, const Visitor& visit)
 {
-  visit("vtkIBL.probe.position", facts.Position);
+  visit(PositionName, facts.Position);
   visit("vtkIBL.probe.orientation", facts.Orientation);
   visit("vtkIBL.probe.bounds", facts.Bounds);
   visit("vtkIBL.probe.proxy", facts.Proxy);
@@ -67,7 +77,9 @@ Imf::FrameBuffer MakeFrameBuffer(float* rgb, int n)
 }
 }
 
-void vtkIBLWriteProbeFile(const char* fileName, vtkIBLProbe& probe, vtkImageData* radiance)
+namespace
+{
+void Write(std::ofstream& stream, const std::string& name, vtkIBLProbe& probe, vtkImageData* radiance)
 {
   int size[3] = {};
   if (radiance)
@@ -77,8 +89,7 @@ void vtkIBLWriteProbeFile(const char* fileName, vtkIBLProbe& probe, vtkImageData
   if (!radiance || size[0] != size[1] || size[2] != 6 || radiance->GetNumberOfScalarComponents() != 3 ||
     radiance->GetScalarType() != VTK_FLOAT)
   {
-    throw std::runtime_error("a probe's radiance is n x n x 6 float RGB, as CaptureProbe() gives it; this is something "
-                             "else, and nothing was written");
+    throw std::runtime_error("its radiance is not n x n x 6 float RGB; give what CaptureProbe() returned");
   }
   Facts facts{};
   probe.GetPosition(facts.Position.data());
@@ -114,7 +125,8 @@ void vtkIBLWriteProbeFile(const char* fileName, vtkIBLProbe& probe, vtkImageData
       }
       headers.front().insert(name, Imf::StringAttribute(text.str()));
     });
-  Imf::MultiPartOutputFile file(fileName, headers.data(), int(headers.size()));
+  Imf::StdOFStream output(stream, name.c_str());
+  Imf::MultiPartOutputFile file(output, headers.data(), int(headers.size()));
   for (int face = 0; face < 6; ++face)
   {
     Imf::OutputPart part(file, face);
@@ -123,12 +135,10 @@ void vtkIBLWriteProbeFile(const char* fileName, vtkIBLProbe& probe, vtkImageData
   }
 }
 
-void vtkIBLReadProbeFile(const char* fileName, vtkIBLProbe& probe)
+void Read(const char* fileName, vtkIBLProbe& probe)
 {
   Imf::MultiPartInputFile file(fileName);
-  const auto fail = [&](const std::string& what) {
-    throw std::runtime_error(std::string(fileName) + " " + what + "; give a file that vtkIBLProbe::WriteFile() wrote");
-  };
+  const auto fail = [](const std::string& what) { throw std::runtime_error("it " + what); };
   if (file.parts() != 6)
   {
     fail("has " + std::to_string(file.parts()) + " parts, a probe's file has six");
@@ -195,4 +205,73 @@ void vtkIBLReadProbeFile(const char* fileName, vtkIBLProbe& probe)
   vtkNew<vtkIBLEnvironment> light;
   light->SetInputData(radiance);
   probe.SetEnvironment(light);
+}
+}
+
+void vtkIBLWriteProbeFile(const char* fileName, vtkIBLProbe& probe, vtkImageData* radiance)
+{
+  // Beside its place first, so that a failure leaves an older file whole.
+  const fs::path place = fileName ? fileName : "";
+  const fs::path written = place.string() + ".part-" + std::to_string(getpid());
+  try
+  {
+    errno = 0;
+    std::ofstream stream(written, std::ios::binary);
+    if (place.empty() || !stream)
+    {
+      throw std::runtime_error(place.empty() ? "no name" : std::strerror(errno));
+    }
+    Write(stream, place.string(), probe, radiance);
+    stream.close(); // here, since OpenEXR asks for no error of the last bytes
+    if (!stream)
+    {
+      throw std::runtime_error(std::strerror(errno));
+    }
+    std::error_code error;
+    fs::rename(written, place, error);
+    if (error)
+    {
+      throw std::runtime_error(error.message());
+    }
+  }
+  catch (const std::exception& error)
+  {
+    std::error_code ignored;
+    fs::remove(written, ignored);
+    throw std::runtime_error("cannot write probe '" + place.string() + "': " + error.what());
+  }
+}
+
+void vtkIBLReadProbeFile(const char* fileName, vtkIBLProbe& probe)
+{
+  const std::string name = fileName ? fileName : "";
+  std::error_code ignored;
+  try
+  {
+    if (!fs::is_regular_file(name, ignored))
+    {
+      throw std::runtime_error("there is no such file");
+    }
+    Read(name.c_str(), probe);
+  }
+  catch (const std::exception& error)
+  {
+    std::string why = error.what();
+    why.erase(why.find_last_not_of('.') + 1); // OpenEXR's
+    throw std::runtime_error(
+      "cannot read probe '" + name + "': " + why + ". Give a file of vtkIBLProbe::WriteFile() or 'vtkibl probe'.");
+  }
+}
+
+bool vtkIBLIsProbeFile(const char* fileName)
+{
+  try
+  {
+    const Imf::MultiPartInputFile file(fileName ? fileName : "");
+    return file.header(0).findTypedAttribute<Imf::StringAttribute>(PositionName);
+  }
+  catch (const std::exception&)
+  {
+    return false;
+  }
 }

@@ -7,8 +7,11 @@
 class vtkIBLProbe;
 class vtkImageData;
 
-/// `radiance`: n x n x 6 float RGB. Throws a std::exception when that, or the writing, fails.
+/// `radiance`: n x n x 6 float RGB. Throws a std::exception when it isn't, or the writing fails; then an older file
+/// stays.
 void vtkIBLWriteProbeFile(const char* fileName, vtkIBLProbe& probe, vtkImageData* radiance);
 
 /// Sets all that the file has. Throws a std::exception, and has set nothing, when it is not such a file.
 void vtkIBLReadProbeFile(const char* fileName, vtkIBLProbe& probe);
+
+bool vtkIBLIsProbeFile(const char* fileName);
