@@ -4,6 +4,7 @@
 #include "Tool.h"
 
 #include "vtkIBLImageReader.h"
+#include "vtkIBLProbe.h"
 
 #include <vtkMath.h>
 
@@ -80,15 +81,48 @@ void PrintBrightest(vtkImageData* image, const Findings& found)
   }
 }
 
+void PrintProbe(vtkIBLProbe* probe)
+{
+  const auto print = [](const char* name, const double* numbers, int count)
+  {
+    std::printf("%s:", name);
+    for (int i = 0; i < count; ++i)
+    {
+      std::printf(" %g", numbers[i]);
+    }
+    std::printf("\n");
+  };
+  const char* const proxies[] = { "infinite", "box", "ellipsoid" };
+  double influence[6];
+  probe->GetInfluenceBounds(influence);
+  std::printf("proxy: %s\n", proxies[probe->GetProxy()]);
+  print("position", probe->GetPosition(), 3);
+  print("bounds", probe->GetBounds(), 6);
+  print("orientation", probe->GetOrientation(), 3);
+  print("influence", influence, 6);
+  std::printf("blend distance: %g\nintensity: %g\n", probe->GetBlendDistance(), probe->GetIntensity());
+}
+
 void Info(const std::string& fileName)
 {
   tool::Progress progress;
   progress.Set(0.5, "reading");
-  vtkNew<vtkIBLImageReader> reader;
-  reader->SetFileName(fileName.c_str());
-  reader->Update();
+  vtkSmartPointer<vtkIBLProbe> probe;
+  vtkSmartPointer<vtkImageData> image;
+  if (vtkIBLProbe::CanReadFile(fileName.c_str()))
+  {
+    probe = tool::ReadProbe(fileName);
+    probe->GetEnvironment()->Update();
+    image = probe->GetEnvironment()->GetRadianceImage();
+  }
+  else
+  {
+    vtkNew<vtkIBLImageReader> reader;
+    reader->SetFileName(fileName.c_str());
+    reader->Update();
+    image = reader->GetOutput();
+  }
   tool::ThrowIfError();
-  vtkImageData* image = reader->GetOutput();
   const Findings found = Search(image);
   vtkNew<vtkIBLEnvironment> environment; // what is left of it once it is cleaned
   environment->SetInputData(image);
@@ -102,7 +136,11 @@ void Info(const std::string& fileName)
   const bool cube = dimensions[2] == 6;
   std::printf("file: %s\n", fileName.c_str());
   std::printf("size: %d x %d%s\n", dimensions[0], dimensions[1], cube ? " x 6" : "");
-  std::printf("layout: %s\n", cube ? "cube" : "lat-long");
+  std::printf("layout: %s\n", probe ? "probe" : cube ? "cube" : "lat-long");
+  if (probe)
+  {
+    PrintProbe(probe);
+  }
   std::printf("range: %g to %g\n", found.Least, found.Most);
   std::printf("mean luminance: %g\n", mean);
   std::printf("NaN texels: %lld\n", static_cast<long long>(found.NaN));
@@ -128,7 +166,8 @@ void tool::AddInfo(CLI::App& app)
     "info", "Tells what an image holds as a light: size, layout, range, mean, faults, brightest texels, exposure.");
   command->footer("Example:\n  vtkibl info studio.exr\n\n"
                   "Numbers are linear radiance. A direction is x y z with y up; the middle of a lat-long image is +x.");
-  command->add_option("IN", *input, "Environment: any image that OpenImageIO reads, lat-long or a cube layout")
+  command
+    ->add_option("IN", *input, "Environment: any image that OpenImageIO reads, lat-long or a cube layout; or a probe")
     ->required()
     ->type_name("");
   command->callback([input] { Info(*input); });

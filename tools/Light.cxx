@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Tool.h"
 
+#include "vtkIBLProbe.h"
+
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkMath.h>
@@ -41,6 +43,14 @@ vtkSmartPointer<vtkIBLEnvironment> tool::ReadEnvironment(const std::string& file
       std::to_string(environment->GetNumberOfNegativeTexels()) + " negative texels; they were replaced");
   }
   return environment;
+}
+
+vtkSmartPointer<vtkIBLProbe> tool::ReadProbe(const std::string& fileName)
+{
+  auto probe = vtkSmartPointer<vtkIBLProbe>::New();
+  probe->ReadFile(fileName.c_str());
+  ThrowIfError();
+  return probe;
 }
 
 void tool::StartWindow(vtkIBLOffscreenWindow* window, Size size)

@@ -27,6 +27,7 @@ int main(int argc, char* argv[])
              "Mesa's software renderer answers first.");
   tool::AddBake(app);
   tool::AddRender(app);
+  tool::AddProbe(app);
   tool::AddSphere(app);
   tool::AddInfo(app);
   tool::CatchMessages();

@@ -21,7 +21,10 @@
 #include <thread>
 #include <vector>
 
+class vtkIBLProbe;
+class vtkIBLRenderPass;
 class vtkPolyData;
+class vtkRenderer;
 
 namespace tool
 {
@@ -35,6 +38,7 @@ extern const char* const Generator; // "vtkibl 0.1.0"
 
 void AddBake(CLI::App& app);
 void AddInfo(CLI::App& app);
+void AddProbe(CLI::App& app);
 void AddRender(CLI::App& app);
 void AddSphere(CLI::App& app);
 
@@ -97,6 +101,8 @@ CLI::Validator HasExtension(const std::vector<std::string>& extensions);
 vtkSmartPointer<vtkIBLEnvironment> ReadEnvironment(const std::string& fileName, Progress& progress);
 /// Makes the window's context.
 void StartWindow(vtkIBLOffscreenWindow* window, Size size);
+/// A probe out of its file; one that can't be read throws.
+vtkSmartPointer<vtkIBLProbe> ReadProbe(const std::string& fileName);
 /// "source", "size" and "mean" of the light.
 JSON DescribeEnvironment(const std::string& fileName, vtkIBLEnvironment* environment);
 /// Unit direction of the middle of texel (i, j, k) of an environment's image.
@@ -104,6 +110,24 @@ std::array<double, 3> GetTexelDirection(const int dimensions[3], int i, int j, i
 
 /// Triangles of a .vtp .vtu .vti .stl .ply .obj file, with point normals.
 vtkSmartPointer<vtkPolyData> ReadSurface(const std::string& fileName);
+
+// ---- Scenes (Scene.cxx) ------------------------------------------------------------------------------------------
+
+/// Meshes of one material in an environment's light.
+struct Scene
+{
+  std::vector<std::string> Meshes;
+  std::string Environment;
+  double Roughness = 0.3;
+  double Metallic = 0.0;
+  std::vector<double> Color = { 0.8, 0.8, 0.8 };
+  double Rotation = 0.0;
+  double Intensity = 1.0;
+};
+
+void AddScene(CLI::App* command, Scene& scene);
+/// All of it is in sight.
+void MakeScene(const Scene& scene, vtkRenderer* renderer, vtkIBLRenderPass* ibl, Progress& progress);
 
 // ---- Files (Files.cxx) -------------------------------------------------------------------------------------------
 

@@ -70,6 +70,15 @@ TEST_F(TestToolErrorsGL, WrongUsageIsStatusTwo)
   this->ExpectFailure(2, "[0, 1]", render + "out.png --metallic nan");
   this->ExpectFailure(2, "[1, 8192]", render + "out.png --sampled 0");
   this->ExpectFailure(2, "{show,hide,blur}", render + "out.png --background red");
+  const std::string probe = "probe t.obj --environment in.exr --output out.exr ";
+  this->ExpectFailure(2, "--position", probe);
+  this->ExpectFailure(2, "--position: At least 3", probe + "--position 1 2");
+  this->ExpectFailure(2, "x is not a number", probe + "--position 1 2 x");
+  this->ExpectFailure(2, "below its second", probe + "--position 1 2 3 --box 0 1 0 1 1 1");
+  this->ExpectFailure(2, "excludes", probe + "--position 1 2 3 --box 0 1 0 1 0 1 --ellipsoid 0 1 0 1 0 1");
+  this->ExpectFailure(2, "[0, 8]", probe + "--position 1 2 3 --bounces 9");
+  this->ExpectFailure(2, "--size: 100 not in", probe + "--position 1 2 3 --size 100");
+  this->ExpectFailure(2, "does not end in .exr", "probe t.obj --environment in.exr --position 1 2 3 --output out.png");
 }
 
 // The library would go on with its studio where an environment can't be read: the tool must not. Mutants: VTK's errors
@@ -91,6 +100,14 @@ TEST_F(TestToolErrorsGL, WhatCannotBeReadIsStatusOne)
   this->ExpectFailure(1, "'broken.vtp'", "render broken.vtp" + light);
   this->ExpectFailure(1, "'broken.ply': it is damaged", "render broken.ply" + light);
   this->ExpectFailure(1, "'empty.stl' has no faces", "render broken.vtp t.obj empty.stl" + light, 2);
+  this->ExpectFailure(
+    1, "cannot read probe 'nowhere.exr': there is no such file", "render t.obj --probe nowhere.exr" + light);
+  this->ExpectFailure(1, "'in.exr': it has 1 parts, a probe's file has six", "render t.obj --probe in.exr" + light);
+  this->RunWell("probe t.obj --environment in.exr --position 1 2 3 --size 32 --output whole.exr");
+  fs::copy(this->Folder / "whole.exr", this->Folder / "cut.exr");
+  fs::resize_file(this->Folder / "cut.exr", fs::file_size(this->Folder / "cut.exr") * 9 / 10);
+  this->ExpectFailure(1, "cannot read probe 'cut.exr'", "render t.obj --probe whole.exr --probe cut.exr" + light);
+  this->ExpectFailure(1, "cannot read probe 'cut.exr'", "info cut.exr");
   this->ExpectFailure(1, "65536 are the most", "bake in.exr --output out --engine sampled --tolerance 0.001");
   this->ExpectFailure(1, "take 0.002 or more", "bake in.exr --output out --tolerance 0.001");
 }
@@ -103,6 +120,9 @@ TEST_F(TestToolErrorsGL, WhereNothingCanBeWrittenIsStatusOne)
   this->ExpectFailure(1, "cannot make the folder 'file'", "bake in.exr --output file");
   this->ExpectFailure(1, "it is a folder", "bake in.exr --output taken");
   this->ExpectFailure(1, "there is no folder 'file'", "render t.obj --environment in.exr --output file/out.png");
+  const std::string probe = "probe t.obj --environment in.exr --position 1 2 3 --output ";
+  this->ExpectFailure(1, "there is no folder 'gone'", probe + "gone/out.exr");
+  this->ExpectFailure(1, "'folder.exr': it is a folder", probe + "folder.exr");
   this->ExpectFailure(1, "there is no folder 'gone'", "sphere --environment in.exr --output gone/out.exr");
   this->ExpectFailure(1, "it is a folder", "render t.obj --environment in.exr --output folder.exr");
   this->ExpectFailure(1, "'folder.exr': it is a folder", "sphere --environment in.exr --output folder.exr");
@@ -119,6 +139,8 @@ TEST_F(TestToolErrorsGL, AFullDiskLeavesNothing)
   this->ExpectFailure(1, "File too large", "render t.obj --environment in.exr --output out.exr", 1, full);
   this->ExpectFailure(1, "File too large", "sphere --environment in.exr --roughness 0.3 --output out.exr", 1, full);
   this->ExpectFailure(1, "File too large", "bake in.exr --output out", 1, full);
+  const std::string probe = "probe t.obj --environment in.exr --position 1 2 3 --size 128 --output out.exr";
+  this->ExpectFailure(1, "File too large", probe, 1, "ulimit -f 1 && trap '' XFSZ &&");
 
   this->RunWell("bake in.exr --output out");
   const auto read = [this]

@@ -107,7 +107,7 @@ TEST_F(TestToolInfo, OfARealPanorama)
 // its footer.
 TEST_F(TestToolInfo, HelpHasAnExampleForEachCommand)
 {
-  for (const std::string command : { "bake", "render", "sphere", "info" })
+  for (const std::string command : { "bake", "render", "sphere", "probe", "info" })
   {
     EXPECT_NE(this->RunWell("--help").find("\n  " + command), std::string::npos);
     EXPECT_NE(this->RunWell(command + " --help").find("Example:\n  vtkibl " + command + " "), std::string::npos);
