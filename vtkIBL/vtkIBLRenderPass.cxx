@@ -141,6 +141,23 @@ std::vector<vtkLight*> GetCameraLights(vtkLightCollection* lights)
   return found;
 }
 
+// What probes that capture may show: all of the scene, in the camera's view or not.
+std::vector<vtkProp*> GetCaptured(vtkRenderer* renderer)
+{
+  std::vector<vtkProp*> captured;
+  vtkCollectionSimpleIterator it;
+  vtkPropCollection* props = renderer->GetViewProps();
+  props->InitTraversal(it);
+  while (vtkProp* prop = props->GetNextProp(it))
+  {
+    if (prop->GetVisibility() && vtkIBLProbe::IsCaptured(prop) && !prop->IsA("vtkVolume") && !prop->IsA("vtkActor2D"))
+    {
+      captured.push_back(prop);
+    }
+  }
+  return captured;
+}
+
 double GetDeterminant3x3(const vtkMatrix4x4* matrix)
 {
   return vtkMath::Determinant3x3(matrix->Element[0], matrix->Element[1], matrix->Element[2]);
@@ -280,9 +297,10 @@ void vtkIBLRenderPass::Render(const vtkRenderState* state)
   std::vector<vtkProp*> props(state->GetPropArray(), state->GetPropArray() + state->GetPropArrayCount());
   vtkIBLSceneNeeds needs = vtkIBLSceneNeeds::Of(props.data(), int(props.size()), this->LightNonPBR);
   const bool hasProbes = this->Probes->GetNumberOfItems() > 0;
-  const std::vector<vtkProp*> captured = this->GetCaptured(renderer);
-  if (needs.Irradiance && !captured.empty())
+  std::vector<vtkProp*> captured;
+  if (needs.Irradiance && this->AnyProbeCaptures())
   {
+    captured = GetCaptured(renderer);
     needs.Add(vtkIBLSceneNeeds::Of(captured.data(), int(captured.size()), this->LightNonPBR));
     needs.RadianceCube = true;
   }
@@ -433,8 +451,7 @@ void vtkIBLRenderPass::RenderScene(const vtkRenderState* state)
 }
 
 //------------------------------------------------------------------------------
-// What probes that capture may show: all of the scene, in the camera's view or not.
-std::vector<vtkProp*> vtkIBLRenderPass::GetCaptured(vtkRenderer* renderer)
+bool vtkIBLRenderPass::AnyProbeCaptures()
 {
   bool anyCaptures = false;
   vtkCollectionSimpleIterator it;
@@ -443,17 +460,7 @@ std::vector<vtkProp*> vtkIBLRenderPass::GetCaptured(vtkRenderer* renderer)
   {
     anyCaptures = anyCaptures || !probe->GetEnvironment();
   }
-  std::vector<vtkProp*> captured;
-  vtkPropCollection* props = renderer->GetViewProps();
-  props->InitTraversal(it);
-  while (vtkProp* prop = anyCaptures ? props->GetNextProp(it) : nullptr)
-  {
-    if (prop->GetVisibility() && vtkIBLProbe::IsCaptured(prop) && !prop->IsA("vtkVolume") && !prop->IsA("vtkActor2D"))
-    {
-      captured.push_back(prop);
-    }
-  }
-  return captured;
+  return anyCaptures;
 }
 
 void vtkIBLRenderPass::UpdateProbes(const vtkRenderState* state, const std::vector<vtkProp*>& captured)

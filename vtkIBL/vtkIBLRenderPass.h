@@ -195,7 +195,7 @@ private:
 
   void RenderScene(const vtkRenderState* state);
   void DrawScene(const vtkRenderState* state);
-  std::vector<vtkProp*> GetCaptured(vtkRenderer* renderer);
+  bool AnyProbeCaptures();
   void UpdateProbes(const vtkRenderState* state, const std::vector<vtkProp*>& captured);
   void DrawCapture(vtkRenderer* renderer, int size, const std::vector<vtkProp*>& props);
   bool Accumulates(const vtkRenderState* state) const;

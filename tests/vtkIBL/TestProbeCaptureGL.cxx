@@ -15,11 +15,13 @@
 #include <vtkCubeSource.h>
 #include <vtkHardwareSelector.h>
 #include <vtkLight.h>
+#include <vtkPointData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkReverseSense.h>
 #include <vtkSelection.h>
+#include <vtkShaderProperty.h>
 #include <vtkSphereSource.h>
 #include <vtkTexture.h>
 #include <vtkUnsignedCharArray.h>
@@ -321,6 +323,9 @@ TEST_F(TestProbeCaptureGL, ModesSayWhen)
   EXPECT_EQ(scene.Render(), 6);
 
   // The one light is a headlight, and the block's Phong shading shows nothing else: black.
+  vtkNew<vtkLight> headlight;
+  headlight->SetLightTypeToHeadlight();
+  scene.Renderer->AddLight(headlight);
   scene.Environment->SetIntensity(0);
   const vtkSmartPointer<vtkImageData> seen = scene.Pass->CaptureProbe(scene.Renderer, scene.Probe);
   double range[2];
@@ -416,4 +421,80 @@ TEST_F(TestProbeCaptureGL, WhatNobodySeesIsNotCaptured)
   vtkSmartPointer<vtkSelection>::Take(selector->Select());
   EXPECT_EQ(scene.Probe->GetNumberOfCapturedFaces(), 0);
   EXPECT_EQ(scene.Render(), 6);
+}
+
+// One face captured anew leaves the other five as they were: the cube is the one that a full capture makes. Mutant: the
+// other faces black, or another probe's.
+TEST_F(TestProbeCaptureGL, FacesThatDidNotChangeStay)
+{
+  Scene scene(this->Window);
+  const vtkSmartPointer<vtkActor> block = scene.AddBlock(Blocks[0]);
+  scene.AddBlock(Blocks[1]);
+  scene.Render();
+  block->GetProperty()->SetColor(0.3, 0.3, 0.9);
+  const vtkTypeInt64 faces = scene.Render();
+  EXPECT_GE(faces, 1);
+  EXPECT_LT(faces, 6);
+  const auto getPicture = [&]
+  {
+    const vtkSmartPointer<vtkImageData> picture = scene.Pass->CaptureRadiance(scene.Renderer);
+    const auto* rgba = static_cast<const float*>(picture->GetScalarPointer());
+    return std::vector<float>(rgba, rgba + 4 * picture->GetNumberOfPoints());
+  };
+  const std::vector<float> inPart = getPicture();
+  scene.Probe->Capture();
+  EXPECT_EQ(getPicture(), inPart);
+}
+
+// A sun of one texel in a fine sky is not missed between the texels of a coarse capture: its energy is that of the sky.
+// The capture reads the mip level of its own size. Mutant: the finest level.
+TEST_F(TestProbeCaptureGL, SmallLightsOfTheSkyKeepTheirEnergy)
+{
+  Scene scene(this->Window);
+  const vtkSmartPointer<vtkImageData> sky = MakePanorama(512, [](Vec3) { return RGB{ 0, 0, 0 }; });
+  const int row = 300;
+  auto* sun = static_cast<float*>(sky->GetScalarPointer(401, row, 0));
+  sun[0] = sun[1] = sun[2] = 1e5f;
+  scene.Environment->SetInputData(sky);
+  const double pi = vtkIBLReference::Pi;
+  const double power =
+    1e5 * (2 * pi / 1024) * (std::sin((row + 1) * pi / 512 - pi / 2) - std::sin(row * pi / 512 - pi / 2));
+  const vtkSmartPointer<vtkImageData> seen = scene.Pass->CaptureProbe(scene.Renderer, scene.Probe);
+  double sum = 0;
+  for (int face = 0; face < 6; ++face)
+  {
+    for (int j = 0; j < FaceSize; ++j)
+    {
+      for (int i = 0; i < FaceSize; ++i)
+      {
+        sum += GetTexel(seen, i, j, face)[0] * vtkIBLReference::CubeTexelSolidAngle(FaceSize, i, j);
+      }
+    }
+  }
+  EXPECT_NEAR(sum / power, 1, 0.05);
+}
+
+// A surface that shows NaN or infinity, by a shader of its own here, neither blackens nor blinds what the probe lights.
+// Mutant: faces that are not cleaned.
+TEST_F(TestProbeCaptureGL, BrokenPixelsAreNoLight)
+{
+  Scene scene(this->Window);
+  for (const char* value : { "sqrt(-1.0 - abs(gl_FragCoord.x))", "1.0 / (gl_FragCoord.x - gl_FragCoord.x)" })
+  {
+    const vtkSmartPointer<vtkActor> block = scene.AddBlock(Blocks[0]);
+    block->GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
+      std::string("//VTK::Light::Impl\n  gl_FragData[0].rgb = vec3(") + value + ");\n", false);
+    const vtkSmartPointer<vtkImageData> seen = scene.Pass->CaptureProbe(scene.Renderer, scene.Probe);
+    double range[2] = { 0, 0 };
+    for (int i = 0; i < seen->GetNumberOfPoints(); ++i)
+    {
+      const double x = seen->GetPointData()->GetScalars()->GetComponent(i, 0);
+      ASSERT_TRUE(std::isfinite(x) && x >= 0 && x <= 1e10) << value;
+      range[1] = std::max(range[1], x);
+    }
+    EXPECT_GT(range[1], 1);
+    const vtkSmartPointer<vtkImageData> picture = scene.Pass->CaptureRadiance(scene.Renderer);
+    EXPECT_TRUE(std::isfinite(*static_cast<float*>(picture->GetScalarPointer(32, 32, 0)))) << value;
+    scene.Renderer->RemoveActor(block);
+  }
 }
