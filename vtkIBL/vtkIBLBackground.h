@@ -26,6 +26,8 @@ public:
   /// 0: the cube map itself; above: as a surface of this perceptualRoughness mirrors it.
   void SetBlur(double blur) { this->Blur = blur; }
   void SetDisplayEncoding(bool encode) { this->DisplayEncoding = encode; }
+  /// Of a picture that is there already, by its alpha; not of what will be drawn, by its depth.
+  void SetBehindPicture(bool behind) { this->BehindPicture = behind; }
 
   int RenderOpaqueGeometry(vtkViewport* viewport) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
@@ -43,6 +45,7 @@ private:
   vtkIBLLighting* Lighting = nullptr; // owned by the pass that owns this
   double Blur = 0.0;
   bool DisplayEncoding = true;
+  bool BehindPicture = false;
 };
 
 #endif

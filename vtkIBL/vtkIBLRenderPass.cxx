@@ -365,8 +365,7 @@ void vtkIBLRenderPass::DrawScene(const vtkRenderState* state)
 {
   vtkRenderer* renderer = state->GetRenderer();
   const bool background = this->BackgroundVisible && this->Renderer;
-  this->Background->SetBlur(this->BackgroundBlur);
-  this->Background->SetDisplayEncoding(this->OutputEncoding == Display);
+  this->SetUpBackground();
   if (this->DelegatePass)
   {
     std::vector<vtkProp*> props(state->GetPropArray(), state->GetPropArray() + state->GetPropArrayCount());
@@ -407,6 +406,38 @@ void vtkIBLRenderPass::DrawScene(const vtkRenderState* state)
   }
   this->UpdateGeometry(renderer, state->GetFrameBuffer());
   this->NumberOfRenderedProps += renderer->GetNumberOfPropsRendered();
+}
+
+bool vtkIBLRenderPass::RenderBackgroundBehind(vtkRenderer* renderer)
+{
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  vtkIBLSceneNeeds needs;
+  needs.AddRoughness(this->BackgroundBlur, this->BackgroundBlur);
+  if (!window || !this->Lighting->Update(window, needs))
+  {
+    return false;
+  }
+  try
+  {
+    this->Lighting->Activate(window);
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return false;
+  }
+  this->SetUpBackground();
+  this->Background->SetBehindPicture(true);
+  const int drawn = this->Background->RenderOpaqueGeometry(renderer);
+  this->Background->SetBehindPicture(false);
+  this->Lighting->Deactivate();
+  return drawn > 0;
+}
+
+void vtkIBLRenderPass::SetUpBackground()
+{
+  this->Background->SetBlur(this->BackgroundBlur);
+  this->Background->SetDisplayEncoding(this->OutputEncoding == Display);
 }
 
 void vtkIBLRenderPass::ReleaseGraphicsResources(vtkWindow* window)
