@@ -10,9 +10,12 @@
 #include "vtkIBLStatistics.h"
 
 #include "vtkAlgorithm.h"
+#include "vtkCommand.h"
 #include "vtkImageData.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
+#include "vtkOpenGLFXAAFilter.h"
+#include "vtkOpenGLRenderer.h"
 #include "vtkPVSession.h"
 #include "vtkPVSynchronizedRenderer.h"
 #include "vtkRenderer.h"
@@ -32,6 +35,8 @@ vtkIBLRenderView::vtkIBLRenderView()
 {
   this->Pass->SetEnvironment(this->Environment);
   this->SynchronizedRenderers->SetRenderPass(this->Pass);
+  // After SynchronizedRenderers' own observer, which was there before.
+  this->GetRenderer()->AddObserver(vtkCommand::EndEvent, this, &vtkIBLRenderView::OnSceneRendered);
 }
 
 vtkIBLRenderView::~vtkIBLRenderView() = default;
@@ -40,6 +45,7 @@ void vtkIBLRenderView::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "EnvironmentLighting: " << this->EnvironmentLighting << "\n"
+     << indent << "EnvironmentVisible: " << this->EnvironmentVisible << "\n"
      << indent << "EnvironmentFileName: " << this->FileName << "\n"
      << indent << "Pass:\n";
   this->Pass->PrintSelf(os, indent.GetNextIndent());
@@ -82,7 +88,7 @@ void vtkIBLRenderView::SetNormalizeExposure(bool normalize)
 
 void vtkIBLRenderView::SetEnvironmentVisible(bool visible)
 {
-  this->Pass->SetBackgroundVisible(visible);
+  this->EnvironmentVisible = visible;
 }
 
 void vtkIBLRenderView::SetEnvironmentBlur(double blur)
@@ -148,17 +154,33 @@ void vtkIBLRenderView::Update()
   this->Superclass::Update();
 }
 
-// As vtkNetworkImageSource does with ParaView's textures. What can't be read is sent as an empty picture, for nobody may
-// wait in vain; the last good light stays.
+// Whether this process is all there is.
+bool vtkIBLRenderView::IsAlone()
+{
+  vtkPVSession* session = this->GetSession();
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  return !session->GetController(vtkPVSession::RENDER_SERVER) && !session->GetController(vtkPVSession::CLIENT) &&
+    (!ranks || ranks->GetNumberOfProcesses() == 1);
+}
+
+// Whether this process reads the file and shows the picture.
+bool vtkIBLRenderView::IsClient()
+{
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  return (this->GetSession()->GetProcessRoles() & vtkPVSession::CLIENT) != 0 &&
+    (!ranks || ranks->GetLocalProcessId() == 0);
+}
+
+// As vtkNetworkImageSource does with ParaView's textures. What can't be read is sent as an empty picture, for nobody
+// may wait in vain; the last good light stays.
 void vtkIBLRenderView::TakeFile()
 {
   vtkPVSession* session = this->GetSession();
   vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
   vtkMultiProcessController* server = session->GetController(vtkPVSession::RENDER_SERVER);
   vtkMultiProcessController* client = session->GetController(vtkPVSession::CLIENT);
-  const bool isClient = (session->GetProcessRoles() & vtkPVSession::CLIENT) != 0;
   const bool hasRanks = ranks && ranks->GetNumberOfProcesses() > 1;
-  if (isClient && !server && !hasRanks)
+  if (this->IsAlone())
   {
     if (!this->FileName.empty()) // else see UpdateBackground()
     {
@@ -167,7 +189,7 @@ void vtkIBLRenderView::TakeFile()
     return;
   }
   vtkSmartPointer<vtkImageData> image = vtkSmartPointer<vtkImageData>::New();
-  if (isClient && !this->FileName.empty() && (!hasRanks || ranks->GetLocalProcessId() == 0))
+  if (this->IsClient() && !this->FileName.empty())
   {
     vtkNew<vtkIBLImageReader> reader;
     reader->SetFileName(this->FileName.c_str());
@@ -197,7 +219,7 @@ void vtkIBLRenderView::TakeFile()
     pass([&](int* data, vtkIdType n) { server->Send(data, n, 1, FileTag); },
       [&](float* data, vtkIdType n) { server->Send(data, n, 1, FileTag); });
   }
-  if (client && !isClient)
+  if (client)
   {
     pass([&](int* data, vtkIdType n) { client->Receive(data, n, 1, FileTag); },
       [&](float* data, vtkIdType n) { client->Receive(data, n, 1, FileTag); });
@@ -223,8 +245,47 @@ void vtkIBLRenderView::UpdateBackground(vtkRenderer* renderer)
   renderer = this->GetRenderer();
   vtkTexture* texture = renderer->GetUseImageBasedLighting() ? renderer->GetEnvironmentTexture() : nullptr;
   renderer->SetUseImageBasedLighting(false); // else surfaces get it twice
+  if (this->EnvironmentVisible)
+  {
+    renderer->SetTexturedBackground(false);
+    renderer->SetGradientBackground(false);
+    renderer->SetBackground(0.0, 0.0, 0.0); // OnSceneRendered() adds to it
+  }
   if (this->FileName.empty())
   {
     this->Environment->SetInputConnection(texture ? texture->GetInputConnection(0, 0) : nullptr);
+  }
+}
+
+// Whether the picture is put together of those of other processes, which then must have no background.
+bool vtkIBLRenderView::IsComposited()
+{
+  return this->SynchronizedRenderers->GetEnabled() && !this->IsAlone();
+}
+
+void vtkIBLRenderView::AboutToRenderOnLocalProcess(bool interactive)
+{
+  const bool visible = this->EnvironmentLighting && this->EnvironmentVisible && !this->GetMakingSelection();
+  this->AddsBackground = visible && this->IsComposited() && this->IsClient();
+  this->Pass->SetBackgroundVisible(this->EnvironmentVisible && !this->IsComposited());
+  vtkRenderer* renderer = this->GetRenderer();
+  this->AddsFXAA = this->AddsBackground && renderer->GetUseFXAA();
+  if (this->AddsFXAA)
+  {
+    renderer->SetUseFXAA(false); // it would make edges against the black that is there before the background
+  }
+  this->Superclass::AboutToRenderOnLocalProcess(interactive);
+}
+
+void vtkIBLRenderView::OnSceneRendered()
+{
+  if (this->AddsBackground)
+  {
+    this->Pass->RenderBackgroundBehind(this->GetRenderer());
+  }
+  if (this->AddsFXAA)
+  {
+    this->FXAA->UpdateConfiguration(this->GetRenderer()->GetFXAAOptions());
+    this->FXAA->Execute(static_cast<vtkOpenGLRenderer*>(this->GetRenderer()));
   }
 }

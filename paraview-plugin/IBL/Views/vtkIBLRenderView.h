@@ -22,6 +22,7 @@
 
 class vtkIBLEnvironment;
 class vtkIBLRenderPass;
+class vtkOpenGLFXAAFilter;
 
 class VTKIBLPARAVIEWVIEWS_EXPORT vtkIBLRenderView : public vtkPVRenderView
 {
@@ -79,16 +80,25 @@ protected:
   ~vtkIBLRenderView() override;
 
   void UpdateBackground(vtkRenderer* renderer = nullptr) override;
+  void AboutToRenderOnLocalProcess(bool interactive) override;
 
 private:
   vtkIBLRenderView(const vtkIBLRenderView&) = delete;
   void operator=(const vtkIBLRenderView&) = delete;
 
+  bool IsAlone();
+  bool IsClient();
+  bool IsComposited();
   void TakeFile();
+  void OnSceneRendered();
 
   vtkNew<vtkIBLEnvironment> Environment;
   vtkNew<vtkIBLRenderPass> Pass;
   bool EnvironmentLighting = true;
+  bool EnvironmentVisible = false;
+  bool AddsBackground = false; // to a composited picture, after the frame that is being rendered
+  bool AddsFXAA = false;
+  vtkNew<vtkOpenGLFXAAFilter> FXAA;
   std::string FileName;
   bool FileIsNew = false;
   std::string StatisticsText;
