@@ -20,6 +20,15 @@ def program(name):
     return os.path.join(os.environ["VTKIBL_PARAVIEW"], name)
 
 
+def mpirun(ranks):
+    return ["mpirun", "--allow-run-as-root", "--oversubscribe", "-np", str(ranks)]
+
+
+def mpi_environment():
+    """For mpirun: without what MPI, which pvpython starts, has left in the environment."""
+    return {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "ORTE_"))}
+
+
 def make_view(kind="IBLRenderView", size=(200, 200)):
     return make_plain(CreateView(kind), size)
 

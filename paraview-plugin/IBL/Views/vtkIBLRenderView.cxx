@@ -149,7 +149,10 @@ void vtkIBLRenderView::Update()
   if (this->FileIsNew)
   {
     this->FileIsNew = false;
-    this->TakeFile();
+    if (!this->FileName.empty()) // else see UpdateBackground()
+    {
+      this->TakeFile();
+    }
   }
   this->Superclass::Update();
 }
@@ -182,14 +185,11 @@ void vtkIBLRenderView::TakeFile()
   const bool hasRanks = ranks && ranks->GetNumberOfProcesses() > 1;
   if (this->IsAlone())
   {
-    if (!this->FileName.empty()) // else see UpdateBackground()
-    {
-      this->Environment->SetFileName(this->FileName.c_str());
-    }
+    this->Environment->SetFileName(this->FileName.c_str());
     return;
   }
   vtkSmartPointer<vtkImageData> image = vtkSmartPointer<vtkImageData>::New();
-  if (this->IsClient() && !this->FileName.empty())
+  if (this->IsClient())
   {
     vtkNew<vtkIBLImageReader> reader;
     reader->SetFileName(this->FileName.c_str());
