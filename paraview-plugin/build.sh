@@ -4,7 +4,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 paraview-plugin/unpack-paraview.sh build/paraview
 mapfile -t libraries <build/paraview/libraries
-cmake/install-dependencies.sh "${libraries[@]}" python3-numpy openmpi-bin xvfb
+cmake/install-dependencies.sh "${libraries[@]}" libqt5svg5 python3-numpy openmpi-bin xvfb
 cmake -S paraview-plugin -B build/paraview-plugin -G Ninja --log-level=WARNING -Wno-deprecated -DCMAKE_BUILD_TYPE=Release \
   "-DCMAKE_CXX_FLAGS=-Wall -Wextra" "-DCMAKE_PREFIX_PATH=$PWD/build/paraview/usr" "$@"
 cmake --build build/paraview-plugin

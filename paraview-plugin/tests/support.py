@@ -59,11 +59,11 @@ def make_matt(shown, color=(1, 1, 1), **properties):
     return shown
 
 
-def picture(view):
-    """What the view shows: rows x columns x 3, top row first, in [0, 255]."""
+def picture(view, size=None):
+    """What the view shows, of its own size by default: rows x columns x 3, top row first, in [0, 255]."""
     with tempfile.TemporaryDirectory() as folder:
         name = os.path.join(folder, "picture.png")
-        SaveScreenshot(name, view, ImageResolution=list(view.ViewSize))
+        SaveScreenshot(name, view, ImageResolution=list(size or view.ViewSize))
         return read_png(name)
 
 
