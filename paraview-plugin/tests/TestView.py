@@ -43,6 +43,22 @@ for name, value, factor, where in (
     check_near(middle, expected * factor, 2, name, value)
     setattr(where, name, old)
 
+# A volume is drawn as without the pass, and a surface beside it lit as without the volume. 1: they share a float buffer.
+# Mutant: volumes that are marked for the pass, which VTK takes for depth peeling.
+volume = Show(Wavelet(WholeExtent=[-5, 5] * 3), view, "UniformGridRepresentation")
+volume.Representation = "Volume"
+volume.Scale = [0.02] * 3
+volume.Position = [0.55, 0.55, 0]
+ColorBy(volume, ("POINTS", "RTData"))
+HideScalarBarIfNotNeeded(volume.LookupTable, view)
+beside = picture(view)
+check_near(beside[center], expected, 1.5, "beside a volume")
+view.LightByEnvironment = 0
+check(beside[:30, 170:].max() > 50, "a volume")
+check_near(beside[:30, 170:], picture(view)[:30, 170:], 1, "a volume beside a lit surface")
+view.LightByEnvironment = 1
+Delete(volume)
+
 # White metal gives all light back; PBR surfaces are shown with the power 1/2.2.
 shown.Interpolation = "PBR"
 shown.Metallic = 1
@@ -95,6 +111,7 @@ writer = vtkPNGWriter()
 writer.SetFileName("gray.png")
 writer.SetInputData(image)
 writer.Write()
+shown.Interpolation = "PBR"  # which VTK's own environment would light, too
 view.EnvironmentFile = os.path.abspath("gray.png")
 of_file = picture(view)
 view.EnvironmentFile = ""
@@ -105,6 +122,7 @@ check_near(picture(view)[center], of_file[center], 1, "ParaView's skybox")
 view.UseEnvironmentLighting = 0
 view.BackgroundColorMode = "Single Color"
 studio = picture(view)
+shown.Interpolation = "Gouraud"
 check(abs(studio[center] - of_file[center]).max() > 20 and studio[center].mean() > 100, "the studio, without either")
 
 # The environment behind the scene.
