@@ -4,6 +4,7 @@
 // Whoever includes this says what it needs, as text costs time even where it isn't taken:
 //   IBL_ENERGY       IBL_SINGLE_SCATTER, IBL_MULTIPLE_SCATTER, IBL_CLASSIC
 //   IBL_METAL, IBL_DIELECTRIC: the surface is known to be all of that
+//   IBL_MATT: the surface is known to reflect nothing, and is its matt base alone
 //   IBL_ANISOTROPY, IBL_COAT, IBL_OCCLUSION, IBL_SPECULAR_OCCLUSION: defined or not
 //   IBL_BUMPED, IBL_HORIZON_OCCLUSION: the normal is bumped, and reflections end at the unbumped surface's horizon
 // and defines iblDiffuseLight() and iblReflectedLight(), declared below.
@@ -171,6 +172,12 @@ iblOutgoing iblEnvironmentLight(iblMaterial material, vec3 positionVC)
 
   iblDiffuse light = iblDiffuseLight(surface, viewVC);
   iblOutgoing outgoing;
+#ifdef IBL_MATT // f0 = f90 = 0
+  outgoing.specular = vec3(0.0);
+  outgoing.reflectance = vec3(0.0);
+  outgoing.diffuse = material.albedo * light.irradiance;
+  return outgoing;
+#endif
   outgoing.reflectance = surface.once;
   outgoing.specular = iblReflectedLight(surface, viewVC, light.layers);
   // Light scattered again among facets, and what the dielectric's matt base gives back of the rest.

@@ -11,6 +11,7 @@
 #include "vtkIBLLighting.h"
 #include "vtkIBLSpecularChain.h"
 
+#include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkFrameBufferObjectBase.h"
 #include "vtkImageData.h"
@@ -24,6 +25,7 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkProp3D.h"
+#include "vtkProperty.h"
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
@@ -561,7 +563,7 @@ const char* const AddTranslucent =
 }
 
 bool vtkIBLRenderPass::PostReplaceShaderValues(
-  std::string&, std::string&, std::string& fragmentShader, vtkAbstractMapper*, vtkProp*)
+  std::string&, std::string&, std::string& fragmentShader, vtkAbstractMapper*, vtkProp* prop)
 {
   if (!this->Lit)
   {
@@ -592,6 +594,11 @@ bool vtkIBLRenderPass::PostReplaceShaderValues(
   }
   else if (this->LightNonPBR && Contains(fragmentShader, "vec4(ambientColor + diffuse + specular, opacity)"))
   {
+    auto* actor = vtkActor::SafeDownCast(prop);
+    if (actor && !(actor->GetProperty()->GetSpecular() > 0.0))
+    {
+      features.push_back("IBL_MATT"); // VTK makes shaders anew when a property changes
+    }
     Replace(fragmentShader, "//VTK::Light::Impl",
       "\n  {\n  vec3 color = pow(max(gl_FragData[0].rgb, vec3(0.0)), vec3(2.2));\n" + std::string(NonPBRMaterial) +
         evaluate + add + "  gl_FragData[0] = vec4(" +

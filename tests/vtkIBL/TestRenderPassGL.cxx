@@ -251,6 +251,31 @@ TEST_F(TestRenderPassGL, KeepsOpacityAndDepthPeeling)
   this->ExpectOnlyLightIsAdded("depth peeling");
 }
 
+// A non-PBR surface without specular reflection has a shader of its own, which shows what the other does at the limit;
+// reflection that comes later, on the same mapper, is seen. 1: rounding. Mutants: half of the light; a shader that is
+// always matt.
+TEST_F(TestRenderPassGL, MattSurfacesAreTheLimit)
+{
+  this->Renderer->RemoveAllLights(); // which have reflections of their own
+  this->Pass->LightNonPBROn();
+  vtkProperty* property = this->Actor->GetProperty();
+  property->SetInterpolationToGouraud();
+  for (const bool compensation : { true, false })
+  {
+    this->Pass->GetLighting()->SetEnergyCompensation(compensation);
+    property->SetSpecular(0.0);
+    const std::vector<unsigned char> matt = this->Render(this->Pass);
+    property->SetSpecular(1e-5);
+    const std::vector<unsigned char> limit = this->Render(this->Pass);
+    for (std::size_t i = 0; i < matt.size(); ++i)
+    {
+      ASSERT_NEAR(matt[i], limit[i], 1) << i / 4 % 96 << " " << i / 4 / 96;
+    }
+    property->SetSpecular(1.0);
+    EXPECT_NE(this->Render(this->Pass), matt);
+  }
+}
+
 // Non-PBR actors and unlit ones are VTK's, untouched.
 TEST_F(TestRenderPassGL, LeavesOtherInterpolationsAlone)
 {
