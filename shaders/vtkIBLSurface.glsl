@@ -8,6 +8,7 @@
 //   IBL_WHITE_EDGES: metals are known to have an f90 of 1
 //   IBL_TINT: light is not scaled alike in all channels
 //   IBL_PARALLEL_PROJECTION; IBL_RIGID_VIEW: view space is turned, not scaled or mirrored
+//   IBL_MATT: the surface is known to reflect nothing, and is its matt base alone
 //   IBL_ANISOTROPY, IBL_COAT, IBL_OCCLUSION, IBL_SPECULAR_OCCLUSION: defined or not
 //   IBL_BUMPED, IBL_HORIZON_OCCLUSION: the normal is bumped, and reflections end at the unbumped surface's horizon
 //   IBL_PROBES: there are local probes; all light is then scaled where it is read
@@ -225,6 +226,12 @@ iblOutgoing iblEnvironmentLight(iblMaterial material, vec3 positionVC)
 
   iblDiffuse light = iblDiffuseLight(surface, viewVC);
   iblOutgoing outgoing;
+#ifdef IBL_MATT // f0 = f90 = 0
+  outgoing.specular = vec3(0.0);
+  outgoing.reflectance = vec3(0.0);
+  outgoing.diffuse = material.albedo * light.irradiance;
+  return outgoing;
+#endif
   outgoing.reflectance = surface.once;
   outgoing.specular = iblReflectedLight(surface, viewVC, light.layers);
   // Light scattered again among facets, and what the dielectric's matt base gives back of the rest.

@@ -90,7 +90,8 @@ int vtkIBLBackground::RenderOpaqueGeometry(vtkViewport* viewport)
     gl.Program.Set("radianceScale", glm::vec3(rgb[0], rgb[1], rgb[2]));
     gl.Program.Set("encodingExponent", this->DisplayEncoding ? 1.0f / 2.2f : 1.0f);
 
-    DrawScreen(window, gl.Program, gl.NoVertices, GL_FALSE, GL_LEQUAL);
+    DrawScreen(
+      window, gl.Program, gl.NoVertices, GL_FALSE, this->BehindPicture ? GL_ALWAYS : GL_LEQUAL, this->BehindPicture);
     CheckErrors("drawing the background");
   }
   catch (const std::exception& error)

@@ -28,6 +28,8 @@ public:
   /// Mip level of the cube map that is shown without blur.
   void SetSharpLevel(double level) { this->SharpLevel = level; }
   void SetDisplayEncoding(bool encode) { this->DisplayEncoding = encode; }
+  /// Of a picture that is there already, by its alpha; not of what will be drawn, by its depth.
+  void SetBehindPicture(bool behind) { this->BehindPicture = behind; }
 
   int RenderOpaqueGeometry(vtkViewport* viewport) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
@@ -46,6 +48,7 @@ private:
   double Blur = 0.0;
   double SharpLevel = 0.0;
   bool DisplayEncoding = true;
+  bool BehindPicture = false;
 };
 
 #endif

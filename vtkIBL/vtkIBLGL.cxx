@@ -386,16 +386,18 @@ BoundImage::~BoundImage()
 }
 
 void DrawScreen(vtkOpenGLRenderWindow* window, const Program& program, const VertexArray& noVertices,
-  GLboolean depthMask, GLenum depthFunction)
+  GLboolean depthMask, GLenum depthFunction, bool behind)
 {
   vtkOpenGLState* state = window->GetState();
   const vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
   const vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
+  const vtkOpenGLState::ScopedglBlendFuncSeparate blendFunction(state);
   const vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
   const vtkOpenGLState::ScopedglDepthMask oldDepthMask(state);
   const vtkOpenGLState::ScopedglDepthFunc oldDepthFunction(state);
   state->vtkglEnable(GL_DEPTH_TEST);
-  state->vtkglDisable(GL_BLEND);
+  state->SetEnumState(GL_BLEND, behind);
+  state->vtkglBlendFuncSeparate(GL_ONE_MINUS_DST_ALPHA, GL_ONE, GL_ONE_MINUS_DST_ALPHA, GL_ONE);
   state->vtkglDisable(GL_CULL_FACE);
   state->vtkglDepthMask(depthMask);
   state->vtkglDepthFunc(depthFunction);

@@ -152,9 +152,10 @@ private:
 };
 
 /// Draws `program`, made over vtkIBLBackgroundVS.glsl, on every pixel of the viewport: neither blended nor culled,
-/// depth compared by `depthFunction` and written if `depthMask`. State is afterwards what it was.
+/// depth compared by `depthFunction` and written if `depthMask`. `behind`: only as much as the alpha of what is there
+/// leaves free. State is afterwards what it was.
 void DrawScreen(vtkOpenGLRenderWindow* window, const Program& program, const VertexArray& noVertices,
-  GLboolean depthMask, GLenum depthFunction);
+  GLboolean depthMask, GLenum depthFunction, bool behind = false);
 
 /// Runs the active compute program over size^2 x layers texels in IBL_TILE tiles; what it wrote is visible to whatever
 /// reads it next.

@@ -14,6 +14,7 @@
 #include "vtkIBLProbeLight.h"
 #include "vtkIBLSpecularChain.h"
 
+#include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkFrameBufferObjectBase.h"
 #include "vtkImageData.h"
@@ -28,6 +29,7 @@
 #include "vtkOpenGLState.h"
 #include "vtkProp3D.h"
 #include "vtkPropCollection.h"
+#include "vtkProperty.h"
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
@@ -598,8 +600,7 @@ void vtkIBLRenderPass::DrawScene(const vtkRenderState* state)
 {
   vtkRenderer* renderer = state->GetRenderer();
   const bool background = this->BackgroundVisible && this->Renderer;
-  this->Background->SetBlur(this->BackgroundBlur);
-  this->Background->SetDisplayEncoding(this->OutputEncoding == Display);
+  this->SetUpBackground();
   if (this->DelegatePass)
   {
     std::vector<vtkProp*> props(state->GetPropArray(), state->GetPropArray() + state->GetPropArrayCount());
@@ -640,6 +641,38 @@ void vtkIBLRenderPass::DrawScene(const vtkRenderState* state)
   }
   this->UpdateGeometry(renderer, state->GetFrameBuffer());
   this->NumberOfRenderedProps += renderer->GetNumberOfPropsRendered();
+}
+
+bool vtkIBLRenderPass::RenderBackgroundBehind(vtkRenderer* renderer)
+{
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  vtkIBLSceneNeeds needs;
+  needs.AddRoughness(this->BackgroundBlur, this->BackgroundBlur);
+  if (!window || !this->Lighting->Update(window, needs))
+  {
+    return false;
+  }
+  try
+  {
+    this->Lighting->Activate(window);
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return false;
+  }
+  this->SetUpBackground();
+  this->Background->SetBehindPicture(true);
+  const int drawn = this->Background->RenderOpaqueGeometry(renderer);
+  this->Background->SetBehindPicture(false);
+  this->Lighting->Deactivate();
+  return drawn > 0;
+}
+
+void vtkIBLRenderPass::SetUpBackground()
+{
+  this->Background->SetBlur(this->BackgroundBlur);
+  this->Background->SetDisplayEncoding(this->OutputEncoding == Display);
 }
 
 void vtkIBLRenderPass::ReleaseGraphicsResources(vtkWindow* window)
@@ -756,7 +789,7 @@ const char* const AddTranslucent =
 }
 
 bool vtkIBLRenderPass::PostReplaceShaderValues(
-  std::string&, std::string&, std::string& fragmentShader, vtkAbstractMapper*, vtkProp*)
+  std::string&, std::string&, std::string& fragmentShader, vtkAbstractMapper*, vtkProp* prop)
 {
   if (!this->Lit)
   {
@@ -797,6 +830,11 @@ bool vtkIBLRenderPass::PostReplaceShaderValues(
   }
   else if (this->LightNonPBR && Contains(fragmentShader, "vec4(ambientColor + diffuse + specular, opacity)"))
   {
+    auto* actor = vtkActor::SafeDownCast(prop);
+    if (actor && !(actor->GetProperty()->GetSpecular() > 0.0))
+    {
+      features.push_back("IBL_MATT"); // VTK makes shaders anew when a property changes
+    }
     Replace(fragmentShader, "//VTK::Light::Impl",
       "\n  {\n  vec3 color = pow(max(gl_FragData[0].rgb, vec3(0.0)), vec3(2.2));\n" + std::string(NonPBRMaterial) +
         evaluate + add +

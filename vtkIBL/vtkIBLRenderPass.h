@@ -171,6 +171,13 @@ public:
    */
   vtkSmartPointer<vtkImageData> CaptureRadiance(vtkRenderer* renderer);
 
+  /**
+   * Draws the environment behind a picture that `renderer` shows already, as far as its alpha leaves room: where
+   * BackgroundVisible comes too early, as for one that is composited of others'. From an observer of the renderer's
+   * EndEvent, say; cleared to black of alpha 0, translucent surfaces peeled. Returns whether it could.
+   */
+  bool RenderBackgroundBehind(vtkRenderer* renderer);
+
   void Render(const vtkRenderState* state) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
@@ -198,6 +205,7 @@ private:
   bool AnyProbeCaptures();
   void UpdateProbes(const vtkRenderState* state, const std::vector<vtkProp*>& captured);
   void DrawCapture(vtkRenderer* renderer, int size, const std::vector<vtkProp*>& props);
+  void SetUpBackground();
   bool Accumulates(const vtkRenderState* state) const;
   vtkIBLStamp GetStamp(const vtkRenderState* state);
 

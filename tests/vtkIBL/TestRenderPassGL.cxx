@@ -254,6 +254,31 @@ TEST_F(TestRenderPassGL, KeepsOpacityAndDepthPeeling)
   this->ExpectOnlyLightIsAdded("depth peeling");
 }
 
+// A non-PBR surface without specular reflection has a shader of its own, which shows what the other does at the limit;
+// reflection that comes later, on the same mapper, is seen. 1: rounding. Mutants: half of the light; a shader that is
+// always matt.
+TEST_F(TestRenderPassGL, MattSurfacesAreTheLimit)
+{
+  this->Renderer->RemoveAllLights(); // which have reflections of their own
+  this->Pass->LightNonPBROn();
+  vtkProperty* property = this->Actor->GetProperty();
+  property->SetInterpolationToGouraud();
+  for (const bool compensation : { true, false })
+  {
+    this->Pass->GetLighting()->SetEnergyCompensation(compensation);
+    property->SetSpecular(0.0);
+    const std::vector<unsigned char> matt = this->Render(this->Pass);
+    property->SetSpecular(1e-5);
+    const std::vector<unsigned char> limit = this->Render(this->Pass);
+    for (std::size_t i = 0; i < matt.size(); ++i)
+    {
+      ASSERT_NEAR(matt[i], limit[i], 1) << i / 4 % 96 << " " << i / 4 / 96;
+    }
+    property->SetSpecular(1.0);
+    EXPECT_NE(this->Render(this->Pass), matt);
+  }
+}
+
 // Non-PBR actors and unlit ones are VTK's, untouched.
 TEST_F(TestRenderPassGL, LeavesOtherInterpolationsAlone)
 {
@@ -376,6 +401,34 @@ TEST_F(TestRenderPassGL, BackgroundShowsTheEnvironment)
   this->Pass->SetBackgroundBlur(0.0);
   picture = this->Pass->CaptureRadiance(this->Renderer);
   EXPECT_NEAR(static_cast<const float*>(picture->GetScalarPointer(48, 48, 0))[2], 0.6 + 0.4 * forward.z, 1e-2);
+}
+
+// Behind a picture that is there, by its alpha, the environment looks as it does when it is drawn first. Peeled: else
+// VTK's alpha of translucent surfaces is not their share. 1: their light is rounded to bytes first. Mutant: the
+// environment added in full.
+TEST_F(TestRenderPassGL, BackgroundComesBehindAPicture)
+{
+  this->Window->AlphaBitPlanesOn();
+  this->Renderer->UseDepthPeelingOn();
+  this->Renderer->SetMaximumNumberOfPeels(8);
+  this->Renderer->SetBackground(0, 0, 0);
+  this->Actor->GetProperty()->SetOpacity(0.5);
+  this->Pass->SetBackgroundBlur(0.3);
+  this->Pass->BackgroundVisibleOn();
+  const std::vector<unsigned char> first = this->Render(this->Pass);
+  this->Pass->BackgroundVisibleOff();
+  const auto add = [](vtkObject* renderer, unsigned long, void* pass, void*)
+  { EXPECT_TRUE(static_cast<vtkIBLRenderPass*>(pass)->RenderBackgroundBehind(static_cast<vtkRenderer*>(renderer))); };
+  vtkNew<vtkCallbackCommand> command;
+  command->SetCallback(add);
+  command->SetClientData(this->Pass);
+  this->Renderer->AddObserver(vtkCommand::EndEvent, command);
+  const std::vector<unsigned char> behind = this->Render(this->Pass);
+  ASSERT_EQ(behind.size(), first.size());
+  for (std::size_t i = 0; i < first.size(); ++i)
+  {
+    EXPECT_NEAR(behind[i], first[i], 1) << i / 4 % 96 << " " << i / 4 / 96;
+  }
 }
 
 // Rough surfaces alone have shaders without the mirror. One that comes later, on the same mapper, shows it: a spot of
