@@ -9,7 +9,6 @@
 
 #include <vtkRenderer.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -24,7 +23,6 @@ struct ProbeOptions
   int FaceSize = 128;
 };
 
-// What is inside the proxy it lights in full, the walls, too; around it the light fades out.
 void SetProxy(vtkIBLProbe* probe, const ProbeOptions& options, vtkRenderer* renderer)
 {
   probe->FitToScene(renderer);
@@ -34,15 +32,6 @@ void SetProxy(vtkIBLProbe* probe, const ProbeOptions& options, vtkRenderer* rend
     probe->SetBounds((options.Box.empty() ? options.Ellipsoid : options.Box).data());
   }
   probe->SetPosition(options.Position[0], options.Position[1], options.Position[2]);
-  double outer[6];
-  probe->GetBounds(outer);
-  const double blend = 0.1 * std::min({ outer[1] - outer[0], outer[3] - outer[2], outer[5] - outer[4] });
-  for (int i = 0; i < 6; ++i)
-  {
-    outer[i] += i % 2 == 0 ? -blend : blend;
-  }
-  probe->SetInfluenceBounds(outer);
-  probe->SetBlendDistance(blend);
   tool::ThrowIfError();
 }
 

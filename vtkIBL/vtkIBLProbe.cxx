@@ -158,7 +158,11 @@ void vtkIBLProbe::SetInfluenceToBounds()
 void vtkIBLProbe::GetInfluenceBounds(double bounds[6]) const
 {
   const double* own = this->OwnInfluence ? this->InfluenceBounds : this->Bounds;
-  std::copy(own, own + 6, bounds);
+  const double further = this->OwnInfluence ? 0.0 : this->GetBlendDistance();
+  for (int i = 0; i < 6; ++i)
+  {
+    bounds[i] = own[i] + (i % 2 == 0 ? -further : further);
+  }
 }
 
 void vtkIBLProbe::SetBlendDistance(double distance)
@@ -176,10 +180,11 @@ void vtkIBLProbe::SetBlendDistance(double distance)
 
 double vtkIBLProbe::GetBlendDistance() const
 {
-  double bounds[6];
-  this->GetInfluenceBounds(bounds);
-  const double half = 0.5 * std::min({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
-  return this->BlendDistance < 0.0 ? 0.2 * half : std::min(this->BlendDistance, half);
+  const double* bounds = this->OwnInfluence ? this->InfluenceBounds : this->Bounds;
+  const double shortest = std::min({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
+  return this->BlendDistance < 0.0 ? 0.1 * shortest
+    : this->OwnInfluence           ? std::min(this->BlendDistance, 0.5 * shortest)
+                                   : this->BlendDistance;
 }
 
 void vtkIBLProbe::SetIntensity(double intensity)

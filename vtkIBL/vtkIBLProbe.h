@@ -76,7 +76,8 @@ public:
   ///@{
   /**
    * The outer bounds of what it lights, of the proxy's shape and turned with it about the proxy's middle: a box where
-   * there is no proxy. Default, and after SetInfluenceToBounds(): the proxy's own; without a proxy, everything.
+   * there is no proxy. Default, and after SetInfluenceToBounds(): the proxy, its walls in full, and around it as far as
+   * the blend goes; without a proxy, everything.
    */
   void SetInfluenceBounds(const double bounds[6]);
   void SetInfluenceBounds(double xmin, double xmax, double ymin, double ymax, double zmin, double zmax);
@@ -88,7 +89,7 @@ public:
   ///@{
   /**
    * How far inside the outer bounds the influence is full, in world units; at most half the extent. Default, and below
-   * 0: a fifth of the shortest half extent. 0: no blending, a hard edge.
+   * 0: a tenth of the shortest side. 0: no blending, a hard edge.
    */
   void SetBlendDistance(double distance);
   double GetBlendDistance() const;

@@ -517,15 +517,15 @@ void vtkIBLProbeLight::SetShaderParameters(vtkShaderProgram* program, vtkRendere
     put(middle[0], middle[1], middle[2], shape);
     put(1.0 / half[0], 1.0 / half[1], 1.0 / half[2], 0.0);
     double steepness[3];
-    double shortest = SharpestEdge;
+    double steepest = 0.0; // so that an ellipsoid's blend is nowhere wider than asked
     for (int j = 0; j < 3; ++j)
     {
       const double length = std::sqrt(rows[0][j] * rows[0][j] + rows[1][j] * rows[1][j] + rows[2][j] * rows[2][j]);
       steepness[j] = std::min(half[j] * length / probe->GetBlendDistance(), SharpestEdge);
-      shortest = std::min(shortest, steepness[j]);
+      steepest = std::max(steepest, steepness[j]);
     }
     const bool isBall = shape == IBL_PROXY_BALL;
-    put(isBall ? shortest : steepness[0], steepness[1], steepness[2], 0.0);
+    put(isBall ? steepest : steepness[0], steepness[1], steepness[2], 0.0);
     const double stored = this->Atlas.GetStoredScale(use.Element);
     const double factor = probe->GetIntensity() * stored;
     put(factor * scale[0], factor * scale[1], factor * scale[2], stored);

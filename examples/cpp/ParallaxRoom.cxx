@@ -116,7 +116,6 @@ int main(int argc, char* argv[])
   vtkNew<vtkIBLProbe> probe;
   probe->SetPosition(0.0, 1.3, 0.0);
   probe->SetBounds(Room);
-  probe->SetInfluenceBounds(-3.0, 3.0, -1.0, 3.6, -3.5, 3.5); // so that it counts in full on the walls
   probe->SetBounces(3);
   vtkNew<vtkIBLRenderPass> ibl;
   ibl->SetEnvironment(environment);

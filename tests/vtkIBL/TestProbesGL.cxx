@@ -238,6 +238,7 @@ struct Walker : Scene
   {
     auto probe = vtkSmartPointer<vtkIBLProbe>::New();
     probe->SetBounds(low, high, -2, 2, -2, 2);
+    probe->SetInfluenceBounds(low, high, -2, 2, -2, 2);
     probe->SetPosition(0.5 * (low + high), 0, 0);
     vtkNew<vtkIBLEnvironment> light;
     light->SetInputData(MakeFaces(8, [&](Vec3) { return radiance; }));
@@ -315,6 +316,21 @@ TEST_F(TestProbesGL, LightIsContinuousFromProbeToProbe)
     EXPECT_NEAR(scene.GetLight(1.2)[c], 0.5 * (red[c] + blue[c]), 4e-3); // half way
     EXPECT_NEAR(scene.GetLight(4.5)[c], sky[c], 2e-3);
   }
+}
+
+// By default a probe lights all of its proxy in full, what lies on the walls, too, and fades around it, over a tenth of its
+// shortest side. Mutants: a fade that ends at the walls; a hard edge.
+TEST_F(TestProbesGL, WallsAreLitInFull)
+{
+  Walker scene(this->Window);
+  const vtkSmartPointer<vtkIBLProbe> probe = scene.Add(-3, 2, { 0.9, 0.1, 0.1 });
+  probe->SetInfluenceToBounds();
+  EXPECT_NEAR(scene.GetLight(2.0)[0], 0.9, 4e-3);
+  EXPECT_NEAR(scene.GetLight(2.2)[0], 0.7, 4e-3);
+  EXPECT_NEAR(scene.GetLight(2.4)[0], 0.5, 4e-3);
+  probe->SetProxy(vtkIBLProbe::Ellipsoid);
+  EXPECT_NEAR(scene.GetLight(2.0)[0], 0.9, 4e-3);
+  EXPECT_NEAR(scene.GetLight(2.7)[0], 0.5, 4e-3);
 }
 
 // Intensity, and an environment of its own turned and dimmed, count where light is looked up. Mutant: the sky's scale
