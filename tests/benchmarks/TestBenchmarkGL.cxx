@@ -53,7 +53,7 @@ TEST_F(TestBenchmarkGL, QuickFormLeavesItsFigures)
 
   const std::string report = ReadText(output + "/RESULTS.md");
   for (const char* heading : { "## Targets", "## 1. Stages", "## 2. Whole bake", "## 3. Shading", "## 4. Steady",
-         "## 5. Cost growth", "## 7. Others", "## Where we are behind", "Repeat: `" })
+         "## 5. Probes", "## 6. Cost growth", "## 8. Others", "## Where we are behind", "Repeat: `" })
   {
     EXPECT_NE(report.find(heading), std::string::npos) << heading;
   }

@@ -222,6 +222,12 @@ glm::vec3 Direction(const float* x)
   return length > 1e-30 ? glm::vec3(d / length) : glm::vec3(0, 0, 1);
 }
 
+template <typename Shader>
+auto Vec3Of(Shader&, const float* x)
+{
+  return typename Shader::vec3(x[0], x[1], x[2]);
+}
+
 // In the tangent frame, by its cosine and its azimuth as a share of a turn.
 glm::vec3 TangentDirection(float cosine, float turn)
 {
@@ -355,6 +361,18 @@ const std::map<std::string, std::function<void(Sweep&)>> Sweeps = {
       // Lamps have sin^2 as 1 - cos^2, which rounding makes negative; alpha is 0.01 there at least.
       Over(sweep, { { 0, 1 + 2e-7f }, { 0.01f, 1 } },
         [](auto& shader, const auto& x) { return shader.iblD_GGX(x[0], 1.0f - x[0], x[1]); });
+    } },
+  { "iblSmithRoot",
+    [](Sweep& sweep)
+    {
+      Over(sweep, { { 0, 1 + 2e-7f }, { 1e-12f, 1 } },
+        [](auto& shader, const auto& x) { return shader.iblSmithRoot(x[0], x[1]); });
+    } },
+  { "iblLobeGGX", // cosines of half vectors all over the hemisphere
+    [](Sweep& sweep)
+    {
+      Over(sweep, { Share, { 1e-3f, 2 }, { 1e-4f, 2 }, { 1e-4f, 1 } },
+        [](auto& shader, const auto& x) { return shader.iblLobeGGX(std::sqrt(2.0f * x[1] * x[0]), x[1], x[2], x[3]); });
     } },
   { "iblV_SmithGGXCorrelated",
     [](Sweep& sweep)
@@ -511,6 +529,45 @@ const std::map<std::string, std::function<void(Sweep&)>> Sweeps = {
     {
       Over(sweep, { Share, { 2, 14 } },
         [](auto& shader, const auto& x) { return shader.iblLayerFromPosition(x[0], std::floor(x[1])); });
+    } },
+  { "iblLayerFromProbe",
+    [](Sweep& sweep)
+    {
+      Over(sweep, { Share, { 2, 14 }, { 1e-30f, 1e30f } },
+        [](auto& shader, const auto& x)
+        { return shader.iblLayerFromProbe(x[0] * std::floor(x[1]), std::floor(x[1]), x[2]); });
+    } },
+  { "iblClampToProxy",
+    [](Sweep& sweep)
+    {
+      for (const bool isBall : { false, true })
+      {
+        Over(sweep, { { -1e18f, 1e18f }, { -2, 2 }, { -2, 2 } },
+          [=](auto& shader, const auto& x) { return shader.iblClampToProxy(Vec3Of(shader, x), isBall); });
+      }
+    } },
+  { "iblExitOfCube", // along directions of any length
+    [](Sweep& sweep)
+    {
+      Over(sweep, { Cosine, Cosine, Cosine, Cosine, Cosine, Cosine },
+        [](auto& shader, const auto& x) { return shader.iblExitOfCube(Vec3Of(shader, x), Vec3Of(shader, x + 3)); });
+    } },
+  { "iblExitOfBall",
+    [](Sweep& sweep)
+    {
+      Over(sweep, { { -0.57f, 0.57f }, { -0.57f, 0.57f }, { -0.57f, 0.57f }, Cosine, Cosine, Cosine },
+        [](auto& shader, const auto& x) { return shader.iblExitOfBall(Vec3Of(shader, x), Direction(x + 3)); });
+    } },
+  { "iblInfluence",
+    [](Sweep& sweep)
+    {
+      for (const bool isBall : { false, true })
+      {
+        Over(sweep, { { -2, 2 }, { -2, 2 }, { -2, 2 }, { 1, 10 } },
+          [=](auto& shader, const auto& x) {
+            return shader.iblInfluence(Vec3Of(shader, x), typename std::decay_t<decltype(shader)>::vec3(x[3]), isBall);
+          });
+      }
     } },
 };
 }
