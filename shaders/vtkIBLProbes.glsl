@@ -14,7 +14,7 @@ struct iblProbe
   vec4 influenceScale; // 1 / half its extent
   vec4 steepness; // see iblInfluence()
   vec4 scale; // from layers to the scene's light; w: from layers to radiance
-  vec4 use; // element of the arrays; what it counts at most; and the same of newer light of that probe, just before
+  vec4 use; // element of the arrays; what it counts at most; the same of newer light of that probe, just before; its number
 };
 
 iblProbe iblGetProbe(int i)
@@ -54,3 +54,20 @@ vec4 iblParallaxDirection(iblProbe probe, vec3 unit, vec3 directionVC)
   float distance = length(iblTransform(probe.cubeFromUnit, vec4(exit * direction, 0.0)));
   return vec4(seen, distance / max(length(seen), 1e-20));
 }
+
+#ifdef IBL_SHOW_SHARES
+// Each probe's share of a place as a colour, hues a golden section apart (see vtkIBLRenderPass::SetProbeDisplay()); the sky's grey.
+vec3 iblSharesAsColors(vec3 positionVC)
+{
+  vec3 color = vec3(0.0);
+  float left = 1.0;
+  for (int i = 0; i < iblProbeCount; ++i)
+  {
+    iblProbe probe = iblGetProbe(i);
+    float share = left * iblProbeShare(probe, iblTransform(probe.unitFromView, vec4(positionVC, 1.0)));
+    color += share * (0.5 + 0.5 * cos(6.2831853 * (0.381966 * probe.use.w + vec3(0.0, 1.0 / 3.0, 2.0 / 3.0))));
+    left -= share;
+  }
+  return color + left * vec3(0.5);
+}
+#endif

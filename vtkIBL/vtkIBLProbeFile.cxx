@@ -3,6 +3,7 @@
 #include "vtkIBLProbeFile.h"
 
 #include "vtkIBLEnvironment.h"
+#include "vtkIBLOpenEXRHeader.h"
 #include "vtkIBLProbe.h"
 
 #include "vtkImageData.h"
@@ -137,8 +138,12 @@ void Write(std::ofstream& stream, const std::string& name, vtkIBLProbe& probe, v
 
 void Read(const char* fileName, vtkIBLProbe& probe)
 {
-  Imf::MultiPartInputFile file(fileName);
   const auto fail = [](const std::string& what) { throw std::runtime_error("it " + what); };
+  if (vtkIBLCheckOpenEXRHeader(fileName).GetNumberOfPixels() > std::int64_t(LargestFaceSize) * LargestFaceSize)
+  {
+    fail("has a part of more than " + std::to_string(LargestFaceSize) + "^2 texels");
+  }
+  Imf::MultiPartInputFile file(fileName);
   if (file.parts() != 6)
   {
     fail("has " + std::to_string(file.parts()) + " parts, a probe's file has six");
@@ -180,6 +185,10 @@ void Read(const char* fileName, vtkIBLProbe& probe)
         fail("has bounds that enclose nothing");
       }
     }
+  }
+  if (facts.Proxy[0] < vtkIBLProbe::Infinite || facts.Proxy[0] > vtkIBLProbe::Ellipsoid)
+  {
+    fail("has a proxy of no known kind");
   }
   if (facts.Intensity[0] < 0.0)
   {

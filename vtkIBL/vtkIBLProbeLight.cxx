@@ -529,7 +529,7 @@ void vtkIBLProbeLight::SetShaderParameters(vtkShaderProgram* program, vtkRendere
     const double stored = this->Atlas.GetStoredScale(use.Element);
     const double factor = probe->GetIntensity() * stored;
     put(factor * scale[0], factor * scale[1], factor * scale[2], stored);
-    put(use.Element, use.Most, use.Newer, 0.0);
+    put(use.Element, use.Most, use.Newer, double(use.Of - this->Entries.data()));
   }
   program->SetUniform4fv("iblProbeNumbers", int(uses.size()) * IBL_PROBE_NUMBERS, numbers);
 }

@@ -11,6 +11,7 @@
 #include "vtkIBLLighting.h"
 #include "vtkIBLProbe.h"
 #include "vtkIBLProbeCollection.h"
+#include "vtkIBLProbeDisplay.h"
 #include "vtkIBLProbeLight.h"
 #include "vtkIBLSpecularChain.h"
 
@@ -178,6 +179,7 @@ bool IsMirrored(vtkProp3D* prop, vtkCamera* camera)
 
 vtkIBLRenderPass::vtkIBLRenderPass()
   : ProbeLight(new vtkIBLProbeLight)
+  , ShownProbes(new vtkIBLProbeDisplay)
 {
   this->NoLight->SetLightTypeToHeadlight();
   this->NoLight->SetIntensity(0.0);
@@ -201,6 +203,8 @@ void vtkIBLRenderPass::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "DirectOcclusion: " << this->DirectOcclusion << "\n"
      << indent << "DelegatePass: " << this->DelegatePass.Get() << "\n"
      << indent << "AccumulatedSamples: " << this->AccumulatedSamples << "\n"
+     << indent << "ProbeDisplay: " << this->ProbeDisplay << "\n"
+     << indent << "ProbeDisplayRoughness: " << this->ProbeDisplayRoughness << "\n"
      << indent << "Probes:\n";
   this->Probes->PrintSelf(os, indent.GetNextIndent());
   os << indent << "Lighting:\n";
@@ -261,6 +265,11 @@ void vtkIBLRenderPass::SetOutputEncoding(int encoding)
   }
 }
 
+void vtkIBLRenderPass::SetProbeDisplay(int display)
+{
+  this->SetShaderOption(this->ProbeDisplay, std::clamp<int>(display, ProbesHidden, ProbeShares));
+}
+
 void vtkIBLRenderPass::SetLightNonPBR(bool on)
 {
   this->SetShaderOption(this->LightNonPBR, on);
@@ -299,6 +308,15 @@ void vtkIBLRenderPass::Render(const vtkRenderState* state)
   std::vector<vtkProp*> props(state->GetPropArray(), state->GetPropArray() + state->GetPropArrayCount());
   vtkIBLSceneNeeds needs = vtkIBLSceneNeeds::Of(props.data(), int(props.size()), this->LightNonPBR);
   const bool hasProbes = this->Probes->GetNumberOfItems() > 0;
+  this->ShownProbes->Clear();
+  if (hasProbes && this->ProbeDisplay != ProbesHidden && !renderer->GetSelector())
+  {
+    const std::vector<vtkProp*>& display = this->ShownProbes->Update(this->Probes,
+      this->ProbeDisplay == ProbeReflections ? vtkIBLProbeDisplay::Look{ true, this->ProbeDisplayRoughness }
+                                             : vtkIBLProbeDisplay::Look{ false, 1.0 });
+    needs.Add(vtkIBLSceneNeeds::Of(display.data(), int(display.size())));
+    props.insert(props.end(), display.begin(), display.end());
+  }
   std::vector<vtkProp*> captured;
   if (needs.Irradiance && this->AnyProbeCaptures())
   {
@@ -471,9 +489,10 @@ void vtkIBLRenderPass::UpdateProbes(const vtkRenderState* state, const std::vect
   vtkIBLProbeLight::Scene scene;
   scene.Window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   scene.Captured = captured;
-  for (int i = 0; i < state->GetPropArrayCount(); ++i)
+  std::vector<vtkProp*> seen(state->GetPropArray(), state->GetPropArray() + state->GetPropArrayCount());
+  seen.insert(seen.end(), this->ShownProbes->GetProps().begin(), this->ShownProbes->GetProps().end());
+  for (vtkProp* prop : seen)
   {
-    vtkProp* prop = state->GetPropArray()[i];
     const double* bounds = prop->GetBounds();
     if (bounds && vtkIBLSceneNeeds::Of(&prop, 1, this->LightNonPBR).Irradiance)
     {
@@ -608,6 +627,7 @@ void vtkIBLRenderPass::DrawScene(const vtkRenderState* state)
     {
       props.insert(props.begin(), this->Background);
     }
+    props.insert(props.end(), this->ShownProbes->GetProps().begin(), this->ShownProbes->GetProps().end());
     vtkRenderState scene(renderer);
     scene.SetPropArrayAndCount(props.data(), static_cast<int>(props.size()));
     scene.SetFrameBuffer(state->GetFrameBuffer());
@@ -638,6 +658,10 @@ void vtkIBLRenderPass::DrawScene(const vtkRenderState* state)
   if (background)
   {
     this->Background->RenderOpaqueGeometry(renderer);
+  }
+  for (vtkProp* prop : this->ShownProbes->GetProps())
+  {
+    prop->RenderOpaqueGeometry(renderer);
   }
   this->UpdateGeometry(renderer, state->GetFrameBuffer());
   this->NumberOfRenderedProps += renderer->GetNumberOfPropsRendered();
@@ -679,6 +703,7 @@ void vtkIBLRenderPass::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Lighting->ReleaseGraphicsResources(window);
   this->ProbeLight->ReleaseGraphicsResources();
+  this->ShownProbes->ReleaseGraphicsResources(window);
   this->Background->ReleaseGraphicsResources(window);
   for (auto& accumulation : this->Accumulations)
   {
@@ -805,7 +830,14 @@ bool vtkIBLRenderPass::PostReplaceShaderValues(
     features.push_back("IBL_RIGID_VIEW");
   }
   const std::string evaluate = "  iblOutgoing iblLight = iblEnvironmentLight(iblSurface, vertexVC.xyz);\n";
-  const std::string add = this->TranslucentFresnel ? AddTranslucent : AddAll;
+  const bool showsShares = this->ProbeDisplay == ProbeShares && this->Lighting->GetReadsProbes();
+  if (showsShares)
+  {
+    features.push_back("IBL_SHOW_SHARES");
+  }
+  const std::string add = showsShares ? "  color = iblSharesAsColors(vertexVC.xyz);\n"
+    : this->TranslucentFresnel        ? AddTranslucent
+                                      : AddAll;
   const std::string emission = "  color += emissiveColor;\n";
   // Unlit shaders have none of these lines and need none.
   if (Contains(fragmentShader, emission.c_str()))

@@ -50,6 +50,7 @@ class vtkIBLEnvironment;
 class vtkIBLLighting;
 class vtkIBLProbe;
 class vtkIBLProbeCollection;
+class vtkIBLProbeDisplay;
 class vtkIBLProbeLight;
 class vtkIBLStamp;
 class vtkImageData;
@@ -79,6 +80,24 @@ public:
    * Local light: what is in here lights surfaces around it, instead of the environment. See vtkIBLProbe.
    */
   vtkIBLProbeCollection* GetProbes();
+
+  enum ProbeDisplays
+  {
+    ProbesHidden,
+    ProbeReflections, ///< metal balls of ProbeDisplayRoughness
+    ProbeIrradiance,  ///< matt white balls
+    ProbeShares ///< surfaces in the colours of the probes that light them, mixed by their shares; the sky's is grey
+  };
+  ///@{
+  /**
+   * Draws a ball at each probe's place, lit as any surface there, with its proxy in light wires and its influence in
+   * dark ones; to look for faults. Default ProbesHidden. And the balls' roughness, in [0, 1]; default 0, mirrors.
+   */
+  void SetProbeDisplay(int display);
+  vtkGetMacro(ProbeDisplay, int);
+  vtkSetClampMacro(ProbeDisplayRoughness, double, 0.0, 1.0);
+  vtkGetMacro(ProbeDisplayRoughness, double);
+  ///@}
 
   /**
    * Captures a probe of `renderer`'s scene, which is then rendered once, and returns what it sees: n x n x 6 float RGB,
@@ -233,7 +252,10 @@ private:
   vtkTimeStamp ShaderTime;                              // when the GLSL that the hooks write last changed
   std::unique_ptr<vtkIBLAccumulation> Accumulations[2]; // by OutputEncoding
   int AccumulatedSamples = 0;
-  int FirstSample = 0;                    // of this frame, in the mean
+  int FirstSample = 0; // of this frame, in the mean
+  std::unique_ptr<vtkIBLProbeDisplay> ShownProbes;
+  int ProbeDisplay = ProbesHidden;
+  double ProbeDisplayRoughness = 0.0;
   bool CapturesProbe = false;             // what is drawn now is for a probe...
   bool IsLitByProbes = true;              // ... that shows what probes light, or not yet
   vtkRenderer* Capturing = nullptr;       // while CaptureRadiance() runs: of this renderer...

@@ -131,7 +131,7 @@ TEST_F(ShaderPrograms, ChunksAreValidInVTKsShaders)
   {
     for (const std::string defines : { "#define IBL_LAMPS 0\n#define IBL_ENERGY IBL_MULTIPLE_SCATTER\n",
            "#define IBL_LAMPS 8\n#define IBL_ENERGY IBL_SINGLE_SCATTER\n#define IBL_MIRROR\n#define IBL_COAT\n#define "
-           "IBL_PROBES\n",
+           "IBL_PROBES\n#define IBL_SHOW_SHARES\n",
            "#define IBL_LAMPS 1\n#define IBL_ENERGY IBL_CLASSIC\n#define IBL_METAL\n#define IBL_ANISOTROPY\n"
            "#define IBL_WHITE_EDGES\n#define IBL_TINT\n#define IBL_PARALLEL_PROJECTION\n#define IBL_RIGID_VIEW\n",
            "#define IBL_LAMPS 2\n#define IBL_ENERGY IBL_MULTIPLE_SCATTER\n#define IBL_DIELECTRIC\n#define "

@@ -318,8 +318,8 @@ TEST_F(TestProbesGL, LightIsContinuousFromProbeToProbe)
   }
 }
 
-// By default a probe lights all of its proxy in full, what lies on the walls, too, and fades around it, over a tenth of its
-// shortest side. Mutants: a fade that ends at the walls; a hard edge.
+// By default a probe lights all of its proxy in full, what lies on the walls, too, and fades around it, over a tenth of
+// its shortest side. Mutants: a fade that ends at the walls; a hard edge.
 TEST_F(TestProbesGL, WallsAreLitInFull)
 {
   Walker scene(this->Window);
@@ -500,5 +500,43 @@ TEST_F(TestProbesGL, RoughReflectionsFollowTheIntegral)
     EXPECT_LE(error[1], (roughness < 0.7 ? 0.6 : 0.85) * error[0])
       << roughness << " without: " << 100 * error[0] / total << " %";
     this->Window->RemoveRenderer(scene.Renderer);
+  }
+}
+
+// One switch shows probes: balls of what they see, wires of what they reach, or surfaces in the colours of their
+// shares. Off, the picture is what it was, bit for bit. Witnesses: a probe of one radiance, on a mirror and on white;
+// the hues of probes 0 and 1 by hand, half of each where they meet. Mutants: balls captured or counted when hidden; the
+// sky on them; shares of the wrong probe.
+TEST_F(TestProbesGL, ProbesCanBeShown)
+{
+  Walker scene(this->Window);
+  const RGB red = { 0.9, 0.1, 0.2 };
+  const vtkSmartPointer<vtkIBLProbe> probe = scene.Add(-2, 2, red);
+  scene.Actor->VisibilityOff();
+  const RGB hidden = scene.GetLight(0);
+  scene.Pass->SetProbeDisplay(vtkIBLRenderPass::ProbeIrradiance);
+  EXPECT_NEAR(scene.GetLight(0)[0], red[0], 5e-3);
+  scene.Pass->SetProbeDisplay(vtkIBLRenderPass::ProbeReflections);
+  EXPECT_NEAR(scene.GetLight(0)[2], red[2], 5e-3);
+  scene.Pass->SetProbeDisplayRoughness(0.5);
+  EXPECT_NEAR(scene.GetLight(0)[0], red[0], 5e-3);
+  scene.Pass->SetProbeDisplay(vtkIBLRenderPass::ProbesHidden);
+  EXPECT_EQ(scene.GetLight(0), hidden);
+
+  scene.Actor->VisibilityOn();
+  scene.Actor->SetOrientation(0, 0, 0);
+  const vtkSmartPointer<vtkIBLProbe> other = scene.Add(1, 6, { 0.1, 0.1, 0.1 });
+  probe->SetBlendDistance(0.5);
+  other->SetPosition(100, 100, 100); // its ball and the first's are elsewhere
+  probe->SetPosition(100, 100, 100);
+  scene.Pass->SetProbeDisplay(vtkIBLRenderPass::ProbeShares);
+  const auto getHue = [](int number, int channel)
+  { return 0.5 + 0.5 * std::cos(2 * vtkIBLReference::Pi * (0.381966 * number + channel / 3.0)); };
+  for (int c = 0; c < 3; ++c)
+  {
+    EXPECT_NEAR(scene.GetLight(0)[c], getHue(0, c), 2e-3);
+    EXPECT_NEAR(scene.GetLight(4)[c], getHue(1, c), 2e-3);
+    EXPECT_NEAR(scene.GetLight(-1.75)[c], 0.5 * (getHue(0, c) + 0.5), 2e-3);
+    EXPECT_NEAR(scene.GetLight(9)[c], 0.5, 2e-3);
   }
 }
