@@ -34,7 +34,7 @@ public:
   ///@{
   /**
    * Texels along an edge of the six faces that all probes have, rounded down to a power of two in [32, 1024]. Default
-   * 128: a mirror shows texels of 0.7 degrees. A probe takes 4 MiB at 128, four times that at twice the size.
+   * 128: a mirror shows texels of 0.7 degrees. A probe takes 2.5 MiB at 128, four times that at twice the size.
    */
   void SetFaceSize(int faceSize);
   vtkGetMacro(FaceSize, int);

@@ -38,7 +38,8 @@ public:
     IrradianceMap,          ///< made in one go with layers, its time is theirs
     IrradianceCoefficients, ///< vtkIBLIrradiance
     BRDFTable,
-    ProbeFaces,  ///< of the scene, captured by vtkIBLProbe
+    ProbeFaces,  ///< of the scene, captured by vtkIBLProbe; the time of these two is that of the calls, the GPU may be
+                 ///< behind
     ProbeLayers, ///< of probes' light
     Total        ///< all of these
   };
