@@ -361,6 +361,14 @@ void WriteTargets(std::ostream& out, const Session& session)
     out, "steady frame over VTK's PBR + IBL", 1, frame("vtkIBL", "spectral layers") / frame("VTK", "PBR + IBL"), 1, "");
   WriteTarget(out, "steady frame over VTK's PBR without IBL", 1.3,
     frame("vtkIBL", "spectral layers") / frame("VTK", "PBR, no IBL"), 1, "");
+  const auto probes = [&](const char* setting) { return Find(session, "probes", "vtkIBL", setting, GetSeconds); };
+  WriteTarget(out, "frame with 8 probes at rest over one with 1", 1.25,
+    probes("8 probes at rest") / probes("1 probe at rest"), 1, "");
+  WriteTarget(out, "what a face that changes adds to a frame, cut up, over what six faces and all layers add at once",
+    1.0 / 6,
+    (probes("1 probe, one face changes, cut up") - probes("1 probe at rest")) /
+      (probes("1 probe, every frame") - probes("1 probe at rest")),
+    1, "");
   WriteTarget(out, "growth: slope of log(time) over log(source texels)", 1,
     FitSlope(Summarize(session, "growth source"), "vtkIBL") / 2, 1, "");
   out << "\n";
@@ -570,8 +578,9 @@ void WriteMarkdown(const Session& session)
   WriteCommand(out, "steady frame");
   WriteStageTable(out, session, "steady frame");
 
-  out << "## 5. Probes\n\nA frame of a hall of eight mirror-like balls, 99,840 triangles, and 24 pillars, 512^2; probes "
-         "of 128^2 faces. What moves is a small sphere that one face of the first ball's probe sees.\n\n";
+  out
+    << "## 5. Probes\n\nA frame of a hall of eight mirror-like balls, 99,840 triangles, and 24 pillars, 512^2; probes "
+       "of 128^2 faces. What moves is a small sphere that one face of the first ball's probe sees.\n\n";
   WriteCommand(out, "probes");
   WriteStageTable(out, session, "probes");
 
