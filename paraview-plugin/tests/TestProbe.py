@@ -88,6 +88,10 @@ wall.Visibility = 0
 check_near(towards_box(picture(view)), white, 2, "static, the box hidden")
 wall.Visibility = 1
 check_near(picture(view), lit, 0, "and shown")
+wall.Position = [0, 0, 5]
+check_near(towards_box(picture(view)), white, 2, "static, the box elsewhere")
+wall.Position = [0, 0, 0]
+check_near(picture(view), lit, 0, "and back")
 plane.XResolution = 2
 captured = faces()
 picture(view)
@@ -111,6 +115,19 @@ view.OrientationAxesVisibility = 1
 view.AxesGrid.Visibility = 1
 check_near(towards_box(picture(view)), towards_box(lit), 0, "axes among the data")
 view.CenterAxesVisibility = view.OrientationAxesVisibility = view.AxesGrid.Visibility = 0
+
+# Coarser data while somebody drags is no news. Mutants: a box fitted to it; a capture of it.
+view.LODThreshold = view.LODResolution = 0
+ball = Sphere(ThetaResolution=300, PhiResolution=300, Radius=0.1, Center=[-0.8, 0.8, 0.5])
+show(ball, view)
+for view.ProbeMode in ("Static", "Dynamic"):
+    still = picture(view)
+    captured = faces()
+    view.SMProxy.InteractiveRender()
+    check(bool(view.GetClientSideObject().GetUseLODForInteractiveRender()), "coarser data")
+    check_near(picture(view), still, 0, view.ProbeMode, "after coarser data")
+    check(faces() == captured, "nothing captured for it")
+Delete(ball)
 
 # A black box on the other side, x = -1. A bounce lights the red one by what the probe sees towards -x: the room less the black
 # box's side, 2 x 1 at distance 1, of form factor F (Howell, Catalog of Radiation Heat Transfer Configuration Factors, B-4);

@@ -143,7 +143,6 @@ void vtkIBLRenderView::SetEnvironmentSamples(int samplesPerPixel)
 void vtkIBLRenderView::SetProbeMode(int mode)
 {
   this->ProbeMode = mode;
-  this->Probe->SetUpdateMode(mode == StaticProbe ? vtkIBLProbe::Once : vtkIBLProbe::OnChange);
   this->ProbeIsNew = true;
 }
 
@@ -325,8 +324,7 @@ bool vtkIBLRenderView::IsComposited()
   return this->SynchronizedRenderers->GetEnabled() && !this->IsAlone();
 }
 
-// Where the visible data is, and its age: seven numbers a prop. Colours are not in it, and whole data is when a coarser
-// one is drawn.
+// Where the visible data is, and its age: seven numbers a prop. Colours are not in it.
 std::vector<double> vtkIBLRenderView::GetShownData()
 {
   std::vector<double> shown;
@@ -400,9 +398,12 @@ void vtkIBLRenderView::UpdateProbe()
 
 void vtkIBLRenderView::AboutToRenderOnLocalProcess(bool interactive)
 {
-  if (!interactive && !this->GetMakingSelection())
+  // Coarser data, while somebody drags, is no news: the probe stays as it is, and need not change back.
+  const bool isCoarse = interactive && this->GetUseLODForInteractiveRender();
+  this->Probe->SetUpdateMode(isCoarse || this->ProbeMode == StaticProbe ? vtkIBLProbe::Once : vtkIBLProbe::OnChange);
+  if (!isCoarse && !this->GetMakingSelection())
   {
-    this->UpdateProbe(); // not to coarser data
+    this->UpdateProbe();
   }
   const bool visible = this->EnvironmentLighting && this->EnvironmentVisible && !this->GetMakingSelection();
   this->AddsBackground = visible && this->IsComposited() && this->IsClient();
