@@ -51,8 +51,8 @@ else:
         said = run.stderr.count("missing.exr")
         check(said == 1, "one process reads the file, and says that it is missing:", said)
         results[ranks] = dict(numpy.load(name))
-        # A rank that draws a piece has no probe, and one says so. Mutants: probes that see a piece of the scene each; a word of each rank,
-        # with each frame, or of one process alone.
+        # A rank that draws a piece has no probe, and one says so. Mutants: probes that see a piece of the scene each;
+        # a word of each rank, with each frame, or of one process alone.
         said = run.stderr.count("ProbeMode is without effect")
         check(said == (ranks > 1), "a word about the probe:", said)
         difference = abs(results[ranks].pop("with a probe") - results[ranks]["without a probe"]).max()
