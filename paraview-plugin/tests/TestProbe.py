@@ -130,7 +130,7 @@ for view.ProbeMode in ("Static", "Dynamic"):
 Delete(ball)
 
 # A black box on the other side, x = -1. A bounce lights the red one by what the probe sees towards -x: the room less the black
-# box's side, 2 x 1 at distance 1, of form factor F (Howell, Catalog of Radiation Heat Transfer Configuration Factors, B-4);
+# box's side, 2 x 1 at distance 1, of form factor F, 0.36074 by quadrature of cos^2 / (pi r^2), too;
 # the mirror on the ground shows the room. The middle of the red side is what the mirror shows at x = 0.6. 1.5: 8 bits, the
 # capture's texels of 0.7 degrees and the irradiance map's. Coarse faces show the box's edge elsewhere. Mutants: either not passed on.
 black = Box(XLength=0.1, YLength=2, ZLength=1, Center=[-1.05, 0, 0.5])
