@@ -24,8 +24,8 @@ def connected(ranks):
         server.terminate()
 
 
-def draw(remote=False):
-    """Pictures by name."""
+def draw(remote=False, without_probe=False):
+    """Pictures by name. Where several ranks draw, there is no probe: the client says so, once."""
     pictures = {}
     view = make_view(size=(300, 300))
     shown = show(Sphere(ThetaResolution=64, PhiResolution=64), view, (0.8, 0.4, 0.2))
@@ -42,6 +42,16 @@ def draw(remote=False):
         view.EnvironmentFile = os.path.abspath("missing.exr")
         pictures["after a missing file"] = picture(view)
     check(sum("missing.exr" in line for line in log) == 1, "the client says that the file is missing")
+    shown.Opacity = 1
+    pictures["without a probe"] = picture(view)
+    with messages() as log:
+        view.ProbeMode = "Dynamic"
+        pictures["with a probe"] = picture(view)
+        picture(view)
+    said = sum("ProbeMode is without effect" in line for line in log)
+    check(said == without_probe, "a word about the probe:", said)
+    if without_probe:
+        check_near(pictures.pop("with a probe"), pictures["without a probe"], 0, "a probe")
     there = bool(view.GetClientSideObject().GetUseDistributedRenderingForRender())
     check(there == remote, "drawn where it was asked for")
     Delete(view)
@@ -67,12 +77,14 @@ if len(sys.argv) > 1:
 
         LoadPlugin(os.environ["VTKIBL_PLUGIN"], remote=True, ns=globals())
         for remote in (False, True):
-            for name, picture_ in draw(remote).items():
+            for name, picture_ in draw(remote, remote and ranks > 1).items():
                 difference = abs(picture_ - serial[name])
                 check(difference.max() <= 2 and difference.mean() <= 0.2, f"{ranks} ranks, drawn {'there' if remote else 'here'}, "
                     f"{name}: differs by {difference.max():.0f} at most, {difference.mean():.4f} in the mean")
     os._exit(0)  # the server is gone
 load_plugin()
-numpy.savez("serial.npz", **draw())
+pictures = draw()
+check(abs(pictures["with a probe"] - pictures["without a probe"]).max() > 10, "a probe that is seen")
+numpy.savez("serial.npz", **pictures)
 for ranks in (1, 2):
     subprocess.run([program("pvpython"), __file__, str(ranks)], check=True)

@@ -30,6 +30,11 @@ def draw():
     pictures["glass"] = picture(view)
     view.EnvironmentFile = os.path.abspath("missing.exr")
     pictures["glass, after a missing file"] = picture(view)
+    shown.Opacity = 1
+    pictures["without a probe"] = picture(view)
+    view.ProbeMode = "Dynamic"
+    pictures["with a probe"] = picture(view)
+    picture(view)
     return pictures
 
 
@@ -46,6 +51,12 @@ else:
         said = run.stderr.count("missing.exr")
         check(said == 1, "one process reads the file, and says that it is missing:", said)
         results[ranks] = dict(numpy.load(name))
+        # A rank that draws a piece has no probe, and one says so. Mutants: probes that see a piece of the scene each;
+        # a word of each rank, with each frame, or of one process alone.
+        said = run.stderr.count("ProbeMode is without effect")
+        check(said == (ranks > 1), "a word about the probe:", said)
+        difference = abs(results[ranks].pop("with a probe") - results[ranks]["without a probe"]).max()
+        check((difference > 0) == (ranks == 1), "a probe changes the picture by", difference)
     serial = results[1]
     check_near(serial["glass"], serial["glass, after a missing file"], 0, "a missing file changes nothing")
     check(abs(serial["surface"] - serial["metal, turned"]).max() > 50, "pictures that differ")

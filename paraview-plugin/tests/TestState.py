@@ -9,6 +9,8 @@ import sys
 from support import *
 
 kinds = ("state.pvsm", "state.py", "trace.py")
+probe = {"ProbeMode": "Static", "ProbeFitsData": 0, "ProbeBounds": [-1.5, 1, -1, 1.5, -1, 1], "ProbePosition": [0.7, 0.1, 0.7],
+    "ProbeBounces": 1, "ProbeFaceSize": 64}
 
 
 def set_up(view, half):
@@ -18,6 +20,8 @@ def set_up(view, half):
     view.EnvironmentUp = [0, 0, 1]
     view.ShowEnvironment = 1
     view.EnvironmentBlur = 0.4
+    for name, value in probe.items():
+        setattr(view, name, value)
 
 
 if len(sys.argv) == 1:
@@ -59,3 +63,6 @@ else:
     view = next(one for one in GetViews() if one.GetXMLName() == "IBLRenderView")
     view.ViewSize = [200, 200]  # which a trace leaves out
     check_near(picture(view), numpy.load("expected.npy"), 0, kind)
+    for name, value in probe.items():
+        found = getattr(view, name)
+        check((list(found) if isinstance(value, list) else found) == value, kind, name, found)

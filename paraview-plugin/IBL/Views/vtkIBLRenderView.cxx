@@ -5,30 +5,47 @@
 #include "vtkIBLEnvironment.h"
 #include "vtkIBLImageReader.h"
 #include "vtkIBLLighting.h"
+#include "vtkIBLProbe.h"
+#include "vtkIBLProbeCollection.h"
 #include "vtkIBLRenderPass.h"
 #include "vtkIBLSpecularChain.h"
 #include "vtkIBLStatistics.h"
 
+#include "vtkActor.h"
 #include "vtkAlgorithm.h"
 #include "vtkCommand.h"
 #include "vtkImageData.h"
+#include "vtkMapper.h"
+#include "vtkMath.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFXAAFilter.h"
 #include "vtkOpenGLRenderer.h"
+#include "vtkPVServerInformation.h"
 #include "vtkPVSession.h"
 #include "vtkPVSynchronizedRenderer.h"
+#include "vtkPropCollection.h"
 #include "vtkRenderer.h"
 #include "vtkTexture.h"
 
+#include <algorithm>
 #include <iomanip>
 #include <sstream>
+#include <utility>
 
 vtkStandardNewMacro(vtkIBLRenderView);
 
 namespace
 {
 constexpr int FileTag = 0x1b1; // of messages between client and server
+
+// What ParaView puts among the data: no part of the scene that surfaces are to see.
+bool IsOrnament(vtkProp* prop)
+{
+  const char* const kinds[] = { "vtkPVCenterAxesActor", "vtkGridAxesActor3D", "vtkPolarAxesActor", "vtkFlagpoleLabel",
+    "vtkBillboardTextActor3D", "vtkSkybox", "vtkWidgetRepresentation" };
+  return std::any_of(std::begin(kinds), std::end(kinds), [prop](const char* kind) { return prop->IsA(kind); });
+}
 }
 
 vtkIBLRenderView::vtkIBLRenderView()
@@ -47,6 +64,8 @@ void vtkIBLRenderView::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "EnvironmentLighting: " << this->EnvironmentLighting << "\n"
      << indent << "EnvironmentVisible: " << this->EnvironmentVisible << "\n"
      << indent << "EnvironmentFileName: " << this->FileName << "\n"
+     << indent << "ProbeMode: " << this->ProbeMode << "\n"
+     << indent << "ProbeFitsData: " << this->ProbeFitsData << "\n"
      << indent << "Pass:\n";
   this->Pass->PrintSelf(os, indent.GetNextIndent());
 }
@@ -119,6 +138,48 @@ void vtkIBLRenderView::SetBrightTexels(bool on)
 void vtkIBLRenderView::SetEnvironmentSamples(int samplesPerPixel)
 {
   this->Pass->GetLighting()->SetSamplesPerPixel(samplesPerPixel);
+}
+
+void vtkIBLRenderView::SetProbeMode(int mode)
+{
+  this->ProbeMode = mode;
+  this->ProbeIsNew = true;
+}
+
+void vtkIBLRenderView::SetProbeFitsData(bool fits)
+{
+  this->ProbeFitsData = fits;
+  this->ProbeIsNew = true;
+}
+
+void vtkIBLRenderView::SetProbeBounds(double xmin, double xmax, double ymin, double ymax, double zmin, double zmax)
+{
+  const double bounds[6] = { xmin, xmax, ymin, ymax, zmin, zmax };
+  std::copy(bounds, bounds + 6, this->ProbeBounds);
+  this->ProbeIsNew = true;
+}
+
+void vtkIBLRenderView::SetProbePosition(double x, double y, double z)
+{
+  const double position[3] = { x, y, z };
+  std::copy(position, position + 3, this->ProbePosition);
+  this->ProbeIsNew = true;
+}
+
+void vtkIBLRenderView::SetProbeBounces(int bounces)
+{
+  this->Probe->SetBounces(bounces);
+  this->ProbeIsNew = true;
+}
+
+void vtkIBLRenderView::SetProbeFaceSize(int faceSize)
+{
+  this->Pass->GetProbes()->SetFaceSize(faceSize);
+}
+
+void vtkIBLRenderView::CaptureProbe()
+{
+  this->Probe->Capture();
 }
 
 const char* vtkIBLRenderView::GetStatisticsText()
@@ -263,8 +324,87 @@ bool vtkIBLRenderView::IsComposited()
   return this->SynchronizedRenderers->GetEnabled() && !this->IsAlone();
 }
 
+// Where the visible data is, and its age: seven numbers a prop. Colours are not in it.
+std::vector<double> vtkIBLRenderView::GetShownData()
+{
+  std::vector<double> shown;
+  vtkCollectionSimpleIterator it;
+  vtkPropCollection* props = this->GetRenderer()->GetViewProps();
+  props->InitTraversal(it);
+  while (vtkProp* prop = props->GetNextProp(it))
+  {
+    if (IsOrnament(prop))
+    {
+      vtkIBLProbe::SetCaptured(prop, false);
+      continue;
+    }
+    const double* bounds = prop->GetVisibility() && prop->GetUseBounds() ? prop->GetBounds() : nullptr;
+    if (bounds && vtkMath::AreBoundsInitialized(bounds))
+    {
+      vtkActor* actor = vtkActor::SafeDownCast(prop);
+      vtkDataObject* data = actor && actor->GetMapper() ? actor->GetMapper()->GetInputDataObject(0, 0) : nullptr;
+      shown.insert(shown.end(), bounds, bounds + 6);
+      shown.push_back(data ? double(data->GetMTime()) : 0.0);
+    }
+  }
+  return shown;
+}
+
+void vtkIBLRenderView::UpdateProbe()
+{
+  const bool isPiece = this->GetUseDistributedRenderingForRender() &&
+    this->GetSession()->GetServerInformation()->GetNumberOfProcesses() > 1;
+  if (isPiece && this->ProbeMode != NoProbe && this->IsClient() && !this->SaidNoProbe)
+  {
+    this->SaidNoProbe = true;
+    vtkWarningMacro("ProbeMode is without effect: several processes draw this view, a piece of the scene each. Raise "
+                    "RemoteRenderThreshold, or use one process.");
+  }
+  vtkIBLProbeCollection* probes = this->Pass->GetProbes();
+  std::vector<double> shown;
+  if (this->ProbeMode != NoProbe && !isPiece)
+  {
+    shown = this->GetShownData();
+  }
+  if (shown.empty())
+  {
+    probes->RemoveItem(this->Probe);
+    return;
+  }
+  if (!probes->IsItemPresent(this->Probe))
+  {
+    probes->AddItem(this->Probe);
+  }
+  if (!this->ProbeIsNew && shown == this->ShownData)
+  {
+    return;
+  }
+  this->ProbeIsNew = false;
+  this->ShownData = std::move(shown);
+  if (this->ProbeFitsData)
+  {
+    this->Probe->FitToScene(this->GetRenderer());
+  }
+  else
+  {
+    this->Probe->SetBounds(this->ProbeBounds);
+    this->Probe->SetPosition(this->ProbePosition[0], this->ProbePosition[1], this->ProbePosition[2]);
+  }
+  if (this->ProbeMode == StaticProbe)
+  {
+    this->Probe->Capture();
+  }
+}
+
 void vtkIBLRenderView::AboutToRenderOnLocalProcess(bool interactive)
 {
+  // Coarser data, while somebody drags, is no news: the probe stays as it is, and need not change back.
+  const bool isCoarse = interactive && this->GetUseLODForInteractiveRender();
+  this->Probe->SetUpdateMode(isCoarse || this->ProbeMode == StaticProbe ? vtkIBLProbe::Once : vtkIBLProbe::OnChange);
+  if (!isCoarse && !this->GetMakingSelection())
+  {
+    this->UpdateProbe();
+  }
   const bool visible = this->EnvironmentLighting && this->EnvironmentVisible && !this->GetMakingSelection();
   this->AddsBackground = visible && this->IsComposited() && this->IsClient();
   this->Pass->SetBackgroundVisible(this->EnvironmentVisible && !this->IsComposited());

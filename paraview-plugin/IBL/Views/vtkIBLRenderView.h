@@ -10,6 +10,9 @@
  *
  * The client reads the file, or rank 0 of pvbatch does, as it is with ParaView's textures. In a session of several
  * processes its pixels go to all that render, each of which makes its light of them.
+ *
+ * A probe in the scene lets its surfaces see each other, in a process that draws all of it: ranks that draw a piece
+ * each would each see their own.
  */
 #ifndef vtkIBLRenderView_h
 #define vtkIBLRenderView_h
@@ -19,8 +22,10 @@
 #include "vtkPVRenderView.h"
 
 #include <string> // For std::string
+#include <vector> // For std::vector
 
 class vtkIBLEnvironment;
+class vtkIBLProbe;
 class vtkIBLRenderPass;
 class vtkOpenGLFXAAFilter;
 
@@ -66,6 +71,26 @@ public:
   void SetEnvironmentSamples(int samplesPerPixel);
   ///@}
 
+  enum ProbeModes
+  {
+    NoProbe,
+    StaticProbe, ///< captured when data comes, goes, moves or changes, and by CaptureProbe(); colours and light as then
+    DynamicProbe ///< captured when anything changes that it sees
+  };
+  ///@{
+  /**
+   * The light in the scene, as vtkIBLProbe and vtkIBLProbeCollection have it. Default NoProbe. Where it fits the data,
+   * which is the default, its box is that of what is visible, axes and widgets aside, and it looks from the middle.
+   */
+  void SetProbeMode(int mode);
+  void SetProbeFitsData(bool fits);
+  void SetProbeBounds(double xmin, double xmax, double ymin, double ymax, double zmin, double zmax);
+  void SetProbePosition(double x, double y, double z);
+  void SetProbeBounces(int bounces);
+  void SetProbeFaceSize(int faceSize);
+  void CaptureProbe();
+  ///@}
+
   /**
    * What this process did for the light so far, one line for each kind of work.
    */
@@ -90,6 +115,8 @@ private:
   bool IsClient();
   bool IsComposited();
   void TakeFile();
+  std::vector<double> GetShownData();
+  void UpdateProbe();
   void OnSceneRendered();
 
   vtkNew<vtkIBLEnvironment> Environment;
@@ -102,6 +129,15 @@ private:
   std::string FileName;
   bool FileIsNew = false;
   std::string StatisticsText;
+
+  vtkNew<vtkIBLProbe> Probe;
+  int ProbeMode = NoProbe;
+  bool ProbeFitsData = true;
+  double ProbeBounds[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
+  double ProbePosition[3] = { 0.0, 0.0, 0.0 };
+  bool ProbeIsNew = false;
+  bool SaidNoProbe = false;
+  std::vector<double> ShownData; // when the probe was last placed
 };
 
 #endif
