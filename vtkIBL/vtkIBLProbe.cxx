@@ -10,12 +10,10 @@
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkMath.h"
-#include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkProp.h"
 #include "vtkPropCollection.h"
 #include "vtkRenderer.h"
-#include "vtkTransform.h"
 
 #include <algorithm>
 #include <cmath>
@@ -289,19 +287,18 @@ bool vtkIBLProbe::IsCaptured(vtkProp* prop)
 //------------------------------------------------------------------------------
 std::array<std::array<double, 3>, 3> vtkIBLProbe::GetAxes() const
 {
-  vtkNew<vtkTransform> turn;
-  turn->RotateZ(this->Orientation[2]);
-  turn->RotateX(this->Orientation[0]);
-  turn->RotateY(this->Orientation[1]);
-  std::array<std::array<double, 3>, 3> axes;
+  double c[3];
+  double s[3];
   for (int i = 0; i < 3; ++i)
   {
-    for (int j = 0; j < 3; ++j)
-    {
-      axes[j][i] = turn->GetMatrix()->GetElement(i, j); // column j
-    }
+    const double angle = vtkMath::RadiansFromDegrees(this->Orientation[i]);
+    c[i] = std::cos(angle);
+    s[i] = std::sin(angle);
   }
-  return axes;
+  // Columns of RotateZ RotateX RotateY.
+  return { { { c[2] * c[1] - s[2] * s[0] * s[1], s[2] * c[1] + c[2] * s[0] * s[1], -c[0] * s[1] },
+    { -s[2] * c[0], c[2] * c[0], s[0] },
+    { c[2] * s[1] + s[2] * s[0] * c[1], s[2] * s[1] - c[2] * s[0] * c[1], c[0] * c[1] } } };
 }
 
 void vtkIBLProbe::GetWorldFromUnit(double rows[3][4]) const
@@ -375,11 +372,13 @@ double vtkIBLProbe::GetReach(const double bounds[6]) const
     }
     centre = centre / length2 - middle[j];
     extent /= length2;
-    const double overlap = std::min(centre + extent, half[j]) - std::max(centre - extent, -half[j]);
-    if (overlap < 0.0)
+    // Where volumes only touch, the probe counts nothing; a plane, which has no extent, may well be inside.
+    const double edge = half[j] * (1.0 - 1e-9);
+    if (centre - extent >= edge || centre + extent <= -edge)
     {
       return 0.0;
     }
+    const double overlap = std::min(centre + extent, half[j]) - std::max(centre - extent, -half[j]);
     reach *= extent > 0.0 ? std::max(overlap / (2.0 * extent), 1e-6) : 1.0;
   }
   return reach;

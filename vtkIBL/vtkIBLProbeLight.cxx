@@ -69,32 +69,6 @@ int FindFaces(vtkIBLProbe* probe, vtkProp* prop)
   const double* bounds = prop->GetBounds();
   return bounds && vtkMath::AreBoundsInitialized(bounds) ? FindFaces(probe->GetPosition(), bounds) : AllFaces;
 }
-
-// What each face shows.
-std::array<vtkIBLStamp, 6> StampFaces(const vtkIBLProbeLight::Scene& scene, vtkIBLProbe* probe)
-{
-  std::array<vtkIBLStamp, 6> stamps;
-  for (vtkIBLStamp& stamp : stamps)
-  {
-    stamp.Add(probe->GetPosition(), 3);
-    stamp.Add(std::uint64_t(probe->GetBounces()));
-    stamp.Add(scene.Light);
-  }
-  for (vtkProp* prop : scene.Captured)
-  {
-    vtkIBLStamp ofProp;
-    ofProp.AddPropWithParts(prop);
-    const int faces = FindFaces(probe, prop);
-    for (int face = 0; face < 6; ++face)
-    {
-      if (faces >> face & 1)
-      {
-        stamps[face].Add(ofProp);
-      }
-    }
-  }
-  return stamps;
-}
 }
 
 struct vtkIBLProbeLight::Entry
@@ -172,6 +146,7 @@ vtkSmartPointer<vtkImageData> vtkIBLProbeLight::Read(const vtkIBLProbe* probe) c
 void vtkIBLProbeLight::Update(const Scene& scene, vtkIBLStatistics* statistics)
 {
   this->Statistics = statistics;
+  this->PropStamps.clear();
   for (Entry& entry : this->Entries)
   {
     entry.IsSeen = entry.Probe == this->Wanted ||
@@ -276,7 +251,7 @@ bool vtkIBLProbeLight::Begin(const Scene& scene, Entry& entry)
   }
   else if (probe->GetUpdateMode() == vtkIBLProbe::OnChange)
   {
-    const std::array<vtkIBLStamp, 6> stamps = StampFaces(scene, probe);
+    const std::array<vtkIBLStamp, 6> stamps = this->StampFaces(scene, probe);
     for (int face = 0; face < 6; ++face)
     {
       faces |= stamps[face] == entry.Stamps[face] ? 0 : 1 << face;
@@ -302,6 +277,38 @@ bool vtkIBLProbeLight::Begin(const Scene& scene, Entry& entry)
   return true;
 }
 
+// What each face shows.
+std::array<vtkIBLStamp, 6> vtkIBLProbeLight::StampFaces(const Scene& scene, vtkIBLProbe* probe)
+{
+  if (this->PropStamps.empty())
+  {
+    for (vtkProp* prop : scene.Captured)
+    {
+      this->PropStamps.emplace_back();
+      this->PropStamps.back().AddPropWithParts(prop);
+    }
+  }
+  std::array<vtkIBLStamp, 6> stamps;
+  for (vtkIBLStamp& stamp : stamps)
+  {
+    stamp.Add(probe->GetPosition(), 3);
+    stamp.Add(std::uint64_t(probe->GetBounces()));
+    stamp.Add(scene.Light);
+  }
+  for (std::size_t i = 0; i < scene.Captured.size(); ++i)
+  {
+    const int faces = FindFaces(probe, scene.Captured[i]);
+    for (int face = 0; face < 6; ++face)
+    {
+      if (faces >> face & 1)
+      {
+        stamps[face].Add(this->PropStamps[i]);
+      }
+    }
+  }
+  return stamps;
+}
+
 // A face, mip levels, a layer; or, not cut up, all of either.
 void vtkIBLProbeLight::Step(const Scene& scene, Entry& entry, bool cutUp)
 {
@@ -309,7 +316,6 @@ void vtkIBLProbeLight::Step(const Scene& scene, Entry& entry, bool cutUp)
   const vtkTypeInt64 face = vtkTypeInt64(this->Atlas.GetFaceSize()) * this->Atlas.GetFaceSize();
   if (entry.FacesToCapture != 0)
   {
-    // After the draw, since that changes what it draws: makes buffers, computes matrices.
     int count = 0;
     do
     {
@@ -407,7 +413,8 @@ void vtkIBLProbeLight::CaptureFace(const Scene& scene, Entry& entry, int face)
   camera->SetExplicitProjectionTransformMatrix(projection);
   camera->UseExplicitProjectionTransformMatrixOn();
   scene.Draw(camera, this->Atlas.AttachFace(entry.Back, face), this->Atlas.GetFaceSize(), props, entry.Bounce > 0);
-  entry.Stamps[face] = StampFaces(scene, entry.Probe)[face];
+  this->PropStamps.clear(); // drawing makes buffers, computes matrices
+  entry.Stamps[face] = this->StampFaces(scene, entry.Probe)[face];
 }
 
 //------------------------------------------------------------------------------

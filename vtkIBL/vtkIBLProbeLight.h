@@ -75,11 +75,13 @@ private:
   void Finish(Entry& entry);
   void CaptureFace(const Scene& scene, Entry& entry, int face);
   std::vector<Use> Choose(const double bounds[6]) const;
+  std::array<vtkIBLStamp, 6> StampFaces(const Scene& scene, vtkIBLProbe* probe);
 
   vtkIBLProbeAtlas Atlas;
   std::vector<Entry> Entries; // in the collection's order
   const vtkIBLProbe* Wanted = nullptr;
   vtkIBLStatistics* Statistics = nullptr; // while Update() runs
+  std::vector<vtkIBLStamp> PropStamps;    // of what is captured, while it is known not to have changed
   vtkTimeStamp Time;
   bool IsFull = false; // said so
 };

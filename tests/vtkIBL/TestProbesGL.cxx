@@ -371,6 +371,31 @@ TEST_F(TestProbesGL, AThousandProbesAreTooMany)
   EXPECT_NEAR(scene.GetLight(0)[0], 0.5, 2e-3);
 }
 
+// A probe is asked for by what lies in its influence, be it flat or a point, in part, turned, or all around it; not by
+// what touches it, where it counts nothing. Mutants: <= for <; axes of the world for the probe's; flat bounds taken for
+// empty.
+TEST_F(TestProbesGL, TouchingIsNotReaching)
+{
+  vtkNew<vtkIBLProbe> probe;
+  probe->SetInfluenceBounds(-1, 1, -1, 1, -1, 1);
+  const auto getReach = [&](double x0, double x1, double y0, double y1)
+  {
+    const double bounds[6] = { x0, x1, y0, y1, 0, 0 };
+    return probe->GetReach(bounds);
+  };
+  EXPECT_EQ(getReach(1, 2, 0, 1), 0);
+  EXPECT_EQ(getReach(-3, -1, 0, 1), 0);
+  EXPECT_EQ(getReach(0.5, 1.5, -1, 1), 0.5);
+  EXPECT_EQ(getReach(0.9, 0.9, 0.9, 0.9), 1);
+  EXPECT_EQ(getReach(-10, 10, -0.5, 0.5), 0.1);
+  probe->SetOrientation(0, 0, 45);
+  EXPECT_EQ(getReach(0.9, 0.9, 0.9, 0.9), 0); // 1.27 along its axis
+  EXPECT_EQ(getReach(1.3, 1.3, 0, 0), 1);
+  probe->SetProxy(vtkIBLProbe::Infinite);
+  probe->SetInfluenceToBounds();
+  EXPECT_EQ(getReach(1e9, 1e9, 0, 0), 1);
+}
+
 // What can't be meant is refused with the value, and nothing changes. Mutants: any of these checks left out.
 TEST_F(TestProbesGL, RefusesWhatCannotBeMeant)
 {
