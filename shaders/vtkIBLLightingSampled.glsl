@@ -59,14 +59,8 @@ vec3 iblLampDirection(int lamp, int i, uint shift)
 #ifdef IBL_PROBES
 iblBoundary iblGatherProbes(iblBoundary boundary, vec3 viewVC)
 {
-  float left = 1.0;
-  for (int i = 0; i < iblProbeCount; ++i)
-  {
-    iblProbe probe = iblGetProbe(i);
-    boundary.probeShares[i] = left * iblProbeShare(probe, iblTransform(probe.unitFromView, vec4(boundary.position, 1.0)));
-    left -= boundary.probeShares[i];
-  }
-  boundary.skyScale = left * vec3(iblRadianceScale);
+  boundary.probeShares = iblProbeShares(boundary.position);
+  boundary.skyScale = (1.0 - dot(boundary.probeShares, vec4(1.0))) * vec3(iblRadianceScale);
   return boundary;
 }
 

@@ -55,19 +55,31 @@ vec4 iblParallaxDirection(iblProbe probe, vec3 unit, vec3 directionVC)
   return vec4(seen, distance / max(length(seen), 1e-20));
 }
 
-#ifdef IBL_SHOW_SHARES
-// Each probe's share of a place as a colour, hues a golden section apart (see vtkIBLRenderPass::SetProbeDisplay()); the sky's grey.
-vec3 iblSharesAsColors(vec3 positionVC)
+// What each probe counts at a place. (vtkIBLLighting.glsl works it out with the light, in one loop.)
+vec4 iblProbeShares(vec3 positionVC)
 {
-  vec3 color = vec3(0.0);
+  vec4 shares = vec4(0.0);
   float left = 1.0;
   for (int i = 0; i < iblProbeCount; ++i)
   {
     iblProbe probe = iblGetProbe(i);
-    float share = left * iblProbeShare(probe, iblTransform(probe.unitFromView, vec4(positionVC, 1.0)));
-    color += share * (0.5 + 0.5 * cos(6.2831853 * (0.381966 * probe.use.w + vec3(0.0, 1.0 / 3.0, 2.0 / 3.0))));
-    left -= share;
+    shares[i] = left * iblProbeShare(probe, iblTransform(probe.unitFromView, vec4(positionVC, 1.0)));
+    left -= shares[i];
   }
-  return color + left * vec3(0.5);
+  return shares;
+}
+
+#ifdef IBL_SHOW_SHARES
+// Each probe's share of a place as a colour, hues a golden section apart (see vtkIBLRenderPass::SetProbeDisplay()); the sky's grey.
+vec3 iblSharesAsColors(vec3 positionVC)
+{
+  vec4 shares = iblProbeShares(positionVC);
+  vec3 color = (1.0 - dot(shares, vec4(1.0))) * vec3(0.5);
+  for (int i = 0; i < iblProbeCount; ++i)
+  {
+    float hue = 0.381966 * iblGetProbe(i).use.w;
+    color += shares[i] * (0.5 + 0.5 * cos(6.2831853 * (hue + vec3(0.0, 1.0 / 3.0, 2.0 / 3.0))));
+  }
+  return color;
 }
 #endif

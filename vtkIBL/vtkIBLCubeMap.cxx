@@ -36,16 +36,6 @@ int FloorPowerOfTwo(int n)
   return power;
 }
 
-int CountLevels(int faceSize)
-{
-  int levels = 1;
-  for (; faceSize > 1; faceSize /= 2)
-  {
-    ++levels;
-  }
-  return levels;
-}
-
 // `own`: what keeps the source's detail.
 int ChooseFaceSize(int wanted, int own)
 {
@@ -139,7 +129,7 @@ std::vector<vtkIBLStatistics::Work> vtkIBLCubeMap::Build(vtkOpenGLRenderWindow* 
   const int width = this->Environment->GetWidth();
   // At a face's centre a texel spans 2/n radians; one of a lat-long image 2 pi/W.
   const int faceSize = ChooseFaceSize(this->FaceSize, isCube ? width : width / 4);
-  const int levels = this->MipLevelsNeeded ? CountLevels(faceSize) : 1;
+  const int levels = this->MipLevelsNeeded ? CountMipLevels(faceSize) : 1;
 
   Internals& gl = *this->Internal;
   if (!gl.Resample && (isCube || levels > 1))
@@ -147,30 +137,19 @@ std::vector<vtkIBLStatistics::Work> vtkIBLCubeMap::Build(vtkOpenGLRenderWindow* 
     gl.Resample = Program::Compute(window, "vtkIBLCubeResampleCS.glsl");
   }
   Texture cube = Texture::Cube(window, faceSize, levels, GL_RGBA32F);
-  auto resample = [&](const Texture& source, int sourceLevel, int level)
-  {
-    ActiveProgram active(window, gl.Resample);
-    BoundImage target(0, cube, level, GL_WRITE_ONLY, GL_RGBA32F);
-    BoundImage origin(1, source, sourceLevel, GL_READ_ONLY, GL_RGBA32F);
-    DispatchTiles(faceSize >> level, 6);
-  };
-
   if (isCube)
   {
     RequireTextureSize(width);
     const vtkIBLRadianceImage radiance = this->Environment->GetRadiance();
     const Texture faces = Texture::Cube(window, width, 1, GL_RGBA32F);
     Upload(faces, width, radiance.RGB);
-    resample(faces, 0, 0);
+    ResampleCube(window, gl.Resample, faces, 0, cube, 0);
   }
   else
   {
     Upload(cube, faceSize, this->Environment->GetCube(faceSize));
   }
-  for (int level = 1; level < levels; ++level)
-  {
-    resample(cube, level - 1, level);
-  }
+  MakeMipLevels(window, gl.Resample, cube, levels);
 
   gl.Cube = std::move(cube);
   this->OutputFaceSize = faceSize;

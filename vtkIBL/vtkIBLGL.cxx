@@ -151,6 +151,11 @@ Texture Texture::Image2D(vtkOpenGLRenderWindow* window, int width, int height, G
   return texture;
 }
 
+void Texture::ReadWholeLevels() const
+{
+  glTextureParameteri(this->Id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+}
+
 int Texture::GetWidth(int level) const
 {
   GLint width = 0;
@@ -405,6 +410,28 @@ void DrawScreen(vtkOpenGLRenderWindow* window, const Program& program, const Ver
   glBindVertexArray(noVertices.Id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glBindVertexArray(0);
+}
+
+int CountMipLevels(int size)
+{
+  return size > 1 ? 1 + CountMipLevels(size / 2) : 1;
+}
+
+void ResampleCube(vtkOpenGLRenderWindow* window, const Program& resample, const Texture& source, int sourceLevel,
+  const Texture& cube, int level)
+{
+  ActiveProgram active(window, resample);
+  BoundImage target(0, cube, level, GL_WRITE_ONLY, GL_RGBA32F);
+  BoundImage origin(1, source, sourceLevel, GL_READ_ONLY, GL_RGBA32F);
+  DispatchTiles(cube.GetWidth(level), 6);
+}
+
+void MakeMipLevels(vtkOpenGLRenderWindow* window, const Program& resample, const Texture& cube, int levels)
+{
+  for (int level = 1; level < levels; ++level)
+  {
+    ResampleCube(window, resample, cube, level - 1, cube, level);
+  }
 }
 
 void DispatchTiles(int size, int layers)

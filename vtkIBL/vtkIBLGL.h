@@ -56,6 +56,8 @@ public:
   static Texture CubeArray(vtkOpenGLRenderWindow* window, int faceSize, int count, int levels, GLenum format);
   static Texture CubeOf(vtkOpenGLRenderWindow* window, const Texture& array, int element);
   static Texture Image2D(vtkOpenGLRenderWindow* window, int width, int height, GLenum format);
+  /// Sets that shaders ask for whole mip levels only: a second one is not read.
+  void ReadWholeLevels() const;
   int GetWidth(int level = 0) const;
   /// Texels of one level as float RGB or RGBA: n x n x 6 of a cube, face after face in GL's order, row 0 at t = -1; w x
   /// h x 1 of an image.
@@ -156,6 +158,15 @@ private:
 /// leaves free. State is afterwards what it was.
 void DrawScreen(vtkOpenGLRenderWindow* window, const Program& program, const VertexArray& noVertices,
   GLboolean depthMask, GLenum depthFunction, bool behind = false);
+
+/// Of a square of so many texels along its edge, down to 1 x 1.
+int CountMipLevels(int size);
+
+/// `level` of an RGBA32F cube from one of another, or of its own: solid-angle-weighted means, by `resample`, a program
+/// of vtkIBLCubeResampleCS.glsl. And all levels but the first, each from the one before.
+void ResampleCube(vtkOpenGLRenderWindow* window, const Program& resample, const Texture& source, int sourceLevel,
+  const Texture& cube, int level);
+void MakeMipLevels(vtkOpenGLRenderWindow* window, const Program& resample, const Texture& cube, int levels);
 
 /// Runs the active compute program over size^2 x layers texels in IBL_TILE tiles; what it wrote is visible to whatever
 /// reads it next.

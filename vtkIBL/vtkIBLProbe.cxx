@@ -301,22 +301,29 @@ std::array<std::array<double, 3>, 3> vtkIBLProbe::GetAxes() const
     { c[2] * s[1] + s[2] * s[0] * c[1], s[2] * s[1] - c[2] * s[0] * c[1], c[0] * c[1] } } };
 }
 
+// Without a proxy its coordinates are those of the influence volume; or, without that, the world's about Position.
+void vtkIBLProbe::GetUnitLengths(double lengths[3]) const
+{
+  const double* bounds = this->Proxy == Infinite ? this->InfluenceBounds : this->Bounds;
+  const bool everywhere = this->Proxy == Infinite && !this->OwnInfluence;
+  for (int i = 0; i < 3; ++i)
+  {
+    lengths[i] = everywhere ? 1.0 : 0.5 * (bounds[2 * i + 1] - bounds[2 * i]);
+  }
+}
+
 void vtkIBLProbe::GetWorldFromUnit(double rows[3][4]) const
 {
-  // Without a proxy its coordinates are those of the influence volume; or, without that, the world's about Position.
-  double bounds[6];
-  this->GetInfluenceBounds(bounds);
-  if (this->Proxy != Infinite)
-  {
-    std::copy(this->Bounds, this->Bounds + 6, bounds);
-  }
+  const double* bounds = this->Proxy == Infinite ? this->InfluenceBounds : this->Bounds;
   const bool everywhere = this->Proxy == Infinite && !this->OwnInfluence;
   const auto axes = this->GetAxes();
+  double lengths[3];
+  this->GetUnitLengths(lengths);
   for (int i = 0; i < 3; ++i)
   {
     for (int j = 0; j < 3; ++j)
     {
-      rows[i][j] = axes[j][i] * (everywhere ? 1.0 : 0.5 * (bounds[2 * j + 1] - bounds[2 * j]));
+      rows[i][j] = axes[j][i] * lengths[j];
     }
     rows[i][3] = everywhere ? this->Position[i] : 0.5 * (bounds[2 * i] + bounds[2 * i + 1]);
   }
@@ -353,6 +360,8 @@ double vtkIBLProbe::GetReach(const double bounds[6]) const
   double half[3];
   this->GetWorldFromUnit(rows);
   this->GetUnitInfluence(middle, half);
+  double unit[3];
+  this->GetUnitLengths(unit);
   double reach = 1.0;
   for (int j = 0; j < 3; ++j)
   {
@@ -361,12 +370,11 @@ double vtkIBLProbe::GetReach(const double bounds[6]) const
       return 1.0;
     }
     // Along the volume's axis j: from where to where the bounds reach, as a projection of their box.
-    double length2 = 0.0;
+    const double length2 = unit[j] * unit[j];
     double centre = 0.0;
     double extent = 0.0;
     for (int i = 0; i < 3; ++i)
     {
-      length2 += rows[i][j] * rows[i][j];
       centre += rows[i][j] * (0.5 * (bounds[2 * i] + bounds[2 * i + 1]) - rows[i][3]);
       extent += std::abs(rows[i][j]) * 0.5 * (bounds[2 * i + 1] - bounds[2 * i]);
     }

@@ -204,10 +204,12 @@ public:
   ///@{
   /**
    * For vtkIBL's own classes. World coordinates of the proxy as rows of an affine matrix from the coordinates in which
-   * it is the unit cube or ball; the influence volume's middle and half extent in those; and how much of `bounds` along
+   * it is the unit cube or ball; how long these coordinates' units are in the world; the influence volume's middle and
+   * half extent in them; and how much of `bounds` along
    * each axis, multiplied, may lie in that volume: 0 is nothing, 1 all.
    */
   void GetWorldFromUnit(double rows[3][4]) const;
+  void GetUnitLengths(double lengths[3]) const;
   void GetUnitInfluence(double middle[3], double half[3]) const;
   double GetReach(const double bounds[6]) const;
   double GetVolume() const; // of the influence; infinite without bounds

@@ -6,14 +6,6 @@
 
 using vtkIBLGL::Texture;
 
-namespace
-{
-int CountLevels(int faceSize)
-{
-  return faceSize > 1 ? 1 + CountLevels(faceSize / 2) : 1;
-}
-}
-
 bool vtkIBLProbeAtlas::Prepare(vtkOpenGLRenderWindow* window, int faceSize, int samples)
 {
   if (this->Radiance.IsIn(window) && this->FaceSize == faceSize && this->Samples == samples)
@@ -50,9 +42,11 @@ void vtkIBLProbeAtlas::Allocate(int count)
     return to;
   };
   const int levels = this->Ladder.GetNumberOfLevels();
-  Texture radiance = grow(this->Radiance, this->FaceSize, CountLevels(this->FaceSize), GL_RGBA32F);
+  Texture radiance = grow(this->Radiance, this->FaceSize, vtkIBLGL::CountMipLevels(this->FaceSize), GL_RGBA32F);
   Texture odd = grow(this->Odd, this->Ladder.FaceSize, levels, GL_RGBA16F);
   Texture even = grow(this->Even, this->Ladder.EvenFaceSize, levels, GL_RGBA16F);
+  odd.ReadWholeLevels();
+  even.ReadWholeLevels();
   std::vector<Element> elements(count);
   for (int i = 0; i < count; ++i)
   {
@@ -127,7 +121,7 @@ void vtkIBLProbeAtlas::CopyFaces(int from, int to) const
 
 void vtkIBLProbeAtlas::CopyLevels(const vtkIBLGL::Texture& cube, int to) const
 {
-  for (int level = 0; level < CountLevels(this->FaceSize); ++level)
+  for (int level = 0; level < vtkIBLGL::CountMipLevels(this->FaceSize); ++level)
   {
     glCopyImageSubData(cube.Id(), GL_TEXTURE_CUBE_MAP, level, 0, 0, 0, this->Radiance.Id(), GL_TEXTURE_CUBE_MAP_ARRAY,
       level, 0, 0, 6 * to, this->FaceSize >> level, this->FaceSize >> level, 6);
@@ -143,13 +137,7 @@ void vtkIBLProbeAtlas::MakeLevels(int element)
     BoundImage target(0, cube, 0, GL_READ_WRITE, GL_RGBA32F);
     DispatchTiles(this->FaceSize, 6);
   }
-  ActiveProgram active(this->Window, this->Resample);
-  for (int level = 1; level < CountLevels(this->FaceSize); ++level)
-  {
-    BoundImage target(0, cube, level, GL_WRITE_ONLY, GL_RGBA32F);
-    BoundImage origin(1, cube, level - 1, GL_READ_ONLY, GL_RGBA32F);
-    DispatchTiles(this->FaceSize >> level, 6);
-  }
+  MakeMipLevels(this->Window, this->Resample, cube, CountMipLevels(this->FaceSize));
 }
 
 void vtkIBLProbeAtlas::MakeLayers(int element, int first, int last, double storedScale)

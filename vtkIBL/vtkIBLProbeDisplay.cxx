@@ -9,6 +9,7 @@
 #include "vtkCubeSource.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
+#include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkSphereSource.h"
@@ -18,18 +19,18 @@
 
 namespace
 {
-// [-1, 1]^3 or the unit ball.
-vtkSmartPointer<vtkPolyData> MakeShape(bool isBall, int resolution)
+vtkSmartPointer<vtkPolyData> MakeUnitBall(int resolution)
 {
-  if (isBall)
-  {
-    vtkNew<vtkSphereSource> ball;
-    ball->SetRadius(1.0);
-    ball->SetThetaResolution(2 * resolution);
-    ball->SetPhiResolution(resolution);
-    ball->Update();
-    return ball->GetOutput();
-  }
+  vtkNew<vtkSphereSource> ball;
+  ball->SetRadius(1.0);
+  ball->SetThetaResolution(2 * resolution);
+  ball->SetPhiResolution(resolution);
+  ball->Update();
+  return ball->GetOutput();
+}
+
+vtkSmartPointer<vtkPolyData> MakeUnitCube() // [-1, 1]^3
+{
   vtkNew<vtkCubeSource> cube;
   cube->SetBounds(-1.0, 1.0, -1.0, 1.0, -1.0, 1.0);
   cube->Update();
@@ -56,15 +57,10 @@ vtkSmartPointer<vtkActor> MakeWires(double grey)
   return actor;
 }
 
-// As large as `half` about `middle`, in the coordinates that `rows` lead from to the world.
-void Place(vtkActor* actor, bool isBall, const double rows[3][4], const double middle[3], const double half[3])
+// A unit shape as large as `half` about `middle`, in the coordinates that `rows` lead from to the world.
+void Place(vtkActor* actor, vtkPolyData* shape, const double rows[3][4], const double middle[3], const double half[3])
 {
-  auto* mapper = vtkPolyDataMapper::SafeDownCast(actor->GetMapper());
-  const int points = isBall ? 12 : 0;
-  if (!mapper->GetInput() || (mapper->GetInput()->GetNumberOfPoints() == 24) == isBall)
-  {
-    mapper->SetInputData(MakeShape(isBall, points));
-  }
+  vtkPolyDataMapper::SafeDownCast(actor->GetMapper())->SetInputData(shape); // nothing when it is that already
   vtkNew<vtkMatrix4x4> matrix;
   for (int i = 0; i < 3; ++i)
   {
@@ -80,6 +76,15 @@ void Place(vtkActor* actor, bool isBall, const double rows[3][4], const double m
 }
 }
 
+vtkIBLProbeDisplay::vtkIBLProbeDisplay()
+  : Ball(MakeUnitBall(32))
+  , WireBall(MakeUnitBall(12))
+  , WireCube(MakeUnitCube())
+{
+}
+
+vtkIBLProbeDisplay::~vtkIBLProbeDisplay() = default;
+
 const std::vector<vtkProp*>& vtkIBLProbeDisplay::Update(vtkIBLProbeCollection* probes, const Look& look)
 {
   this->Props.clear();
@@ -92,7 +97,6 @@ const std::vector<vtkProp*>& vtkIBLProbeDisplay::Update(vtkIBLProbeCollection* p
     if (!marks->Ball)
     {
       marks->Ball = MakeActor();
-      vtkPolyDataMapper::SafeDownCast(marks->Ball->GetMapper())->SetInputData(MakeShape(true, 32));
       marks->Ball->GetProperty()->SetInterpolationToPBR();
       marks->Ball->GetProperty()->SetColor(1.0, 1.0, 1.0);
       marks->Proxy = MakeWires(0.9);
@@ -106,28 +110,25 @@ const std::vector<vtkProp*>& vtkIBLProbeDisplay::Update(vtkIBLProbeCollection* p
     double half[3];
     probe->GetWorldFromUnit(rows);
     probe->GetUnitInfluence(middle, half);
-    double sides[3];
-    for (int j = 0; j < 3; ++j)
-    {
-      sides[j] = 2.0 * std::sqrt(rows[0][j] * rows[0][j] + rows[1][j] * rows[1][j] + rows[2][j] * rows[2][j]);
-    }
-    const double radius = 0.05 * *std::min_element(sides, sides + 3);
+    double unit[3];
+    probe->GetUnitLengths(unit);
+    const double radius = 0.1 * *std::min_element(unit, unit + 3);
     const double* position = probe->GetPosition();
     const double ball[3][4] = { { radius, 0, 0, position[0] }, { 0, radius, 0, position[1] },
       { 0, 0, radius, position[2] } };
     const double one[3] = { 1.0, 1.0, 1.0 };
     const double zero[3] = { 0.0, 0.0, 0.0 };
-    Place(marks->Ball, true, ball, zero, one);
+    Place(marks->Ball, this->Ball, ball, zero, one);
     this->Props.push_back(marks->Ball);
-    const bool isBall = probe->GetProxy() == vtkIBLProbe::Ellipsoid;
+    vtkPolyData* wires = probe->GetProxy() == vtkIBLProbe::Ellipsoid ? this->WireBall : this->WireCube;
     if (probe->GetProxy() != vtkIBLProbe::Infinite)
     {
-      Place(marks->Proxy, isBall, rows, zero, one);
+      Place(marks->Proxy, wires, rows, zero, one);
       this->Props.push_back(marks->Proxy);
     }
     if (std::isfinite(half[0]))
     {
-      Place(marks->Influence, isBall, rows, middle, half);
+      Place(marks->Influence, wires, rows, middle, half);
       this->Props.push_back(marks->Influence);
     }
   }

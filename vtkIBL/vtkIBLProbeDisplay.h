@@ -17,6 +17,9 @@ class vtkWindow;
 class vtkIBLProbeDisplay
 {
 public:
+  vtkIBLProbeDisplay();
+  ~vtkIBLProbeDisplay();
+
   /// What of one surface the balls show: a metal's reflections, at a roughness, or what a matt white one gets.
   struct Look
   {
@@ -34,6 +37,7 @@ private:
   {
     vtkSmartPointer<vtkActor> Ball, Proxy, Influence;
   };
-  std::vector<Marks> Actors; // kept, since they have buffers
+  vtkSmartPointer<vtkPolyData> Ball, WireBall, WireCube; // of unit size
+  std::vector<Marks> Actors;                             // kept, since they have buffers
   std::vector<vtkProp*> Props;
 };

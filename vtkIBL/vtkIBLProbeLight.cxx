@@ -103,10 +103,16 @@ vtkIBLProbeLight::~vtkIBLProbeLight() = default;
 
 void vtkIBLProbeLight::Prepare(vtkOpenGLRenderWindow* window, vtkIBLProbeCollection* probes)
 {
-  if (this->Atlas.Prepare(window, probes->GetFaceSize(), probes->GetNumberOfSamples()))
+  const bool isNew = this->Atlas.Prepare(window, probes->GetFaceSize(), probes->GetNumberOfSamples());
+  if (isNew)
   {
     this->Entries.clear();
   }
+  if (!isNew && probes->GetMTime() == this->CollectionTime)
+  {
+    return;
+  }
+  this->CollectionTime = probes->GetMTime();
   std::vector<Entry> entries;
   vtkCollectionSimpleIterator it;
   probes->InitTraversal(it);
@@ -122,11 +128,18 @@ void vtkIBLProbeLight::Prepare(vtkOpenGLRenderWindow* window, vtkIBLProbeCollect
   }
   for (Entry& gone : this->Entries)
   {
-    this->Atlas.Give(gone.Front);
-    this->Atlas.Give(gone.Back);
-    this->Atlas.Give(gone.Old);
+    this->Forget(gone);
   }
   this->Entries = std::move(entries);
+}
+
+void vtkIBLProbeLight::Forget(Entry& entry)
+{
+  this->Atlas.Give(entry.Front);
+  this->Atlas.Give(entry.Back);
+  this->Atlas.Give(entry.Old);
+  const vtkSmartPointer<vtkIBLProbe> probe = std::exchange(entry, Entry()).Probe;
+  entry.Probe = probe;
 }
 
 void vtkIBLProbeLight::ReleaseGraphicsResources()
@@ -193,12 +206,7 @@ bool vtkIBLProbeLight::Take(int& element)
   {
     if (!entry->IsSeen && entry->Front >= 0)
     {
-      this->Atlas.Give(entry->Front);
-      this->Atlas.Give(entry->Back);
-      this->Atlas.Give(entry->Old);
-      const vtkSmartPointer<vtkIBLProbe> probe = entry->Probe;
-      *entry = Entry();
-      entry->Probe = probe;
+      this->Forget(*entry);
       taken = this->Atlas.Take();
     }
   }
@@ -317,6 +325,7 @@ void vtkIBLProbeLight::Step(const Scene& scene, Entry& entry, bool cutUp)
   if (entry.FacesToCapture != 0)
   {
     int count = 0;
+    int captured = 0; // bits
     do
     {
       int next = 0;
@@ -326,8 +335,19 @@ void vtkIBLProbeLight::Step(const Scene& scene, Entry& entry, bool cutUp)
       }
       this->CaptureFace(scene, entry, next);
       entry.FacesToCapture &= ~(1 << next);
+      captured |= 1 << next;
       ++count;
     } while (!cutUp && entry.FacesToCapture != 0);
+    // Now, since drawing makes buffers and computes matrices, which changes what was drawn.
+    this->PropStamps.clear();
+    const std::array<vtkIBLStamp, 6> stamps = this->StampFaces(scene, entry.Probe);
+    for (int i = 0; i < 6; ++i)
+    {
+      if (captured >> i & 1)
+      {
+        entry.Stamps[i] = stamps[i];
+      }
+    }
     entry.Probe->Count(count, 0);
     this->Statistics->Add(
       { vtkIBLStatistics::ProbeFaces, count, count * face, 16 * count * face, stopwatch.GetSeconds() });
@@ -413,8 +433,6 @@ void vtkIBLProbeLight::CaptureFace(const Scene& scene, Entry& entry, int face)
   camera->SetExplicitProjectionTransformMatrix(projection);
   camera->UseExplicitProjectionTransformMatrixOn();
   scene.Draw(camera, this->Atlas.AttachFace(entry.Back, face), this->Atlas.GetFaceSize(), props, entry.Bounce > 0);
-  this->PropStamps.clear(); // drawing makes buffers, computes matrices
-  entry.Stamps[face] = this->StampFaces(scene, entry.Probe)[face];
 }
 
 //------------------------------------------------------------------------------
@@ -523,12 +541,13 @@ void vtkIBLProbeLight::SetShaderParameters(vtkShaderProgram* program, vtkRendere
                                                                     : IBL_PROXY_BALL;
     put(middle[0], middle[1], middle[2], shape);
     put(1.0 / half[0], 1.0 / half[1], 1.0 / half[2], 0.0);
+    double unit[3];
+    probe->GetUnitLengths(unit);
     double steepness[3];
     double steepest = 0.0; // so that an ellipsoid's blend is nowhere wider than asked
     for (int j = 0; j < 3; ++j)
     {
-      const double length = std::sqrt(rows[0][j] * rows[0][j] + rows[1][j] * rows[1][j] + rows[2][j] * rows[2][j]);
-      steepness[j] = std::min(half[j] * length / probe->GetBlendDistance(), SharpestEdge);
+      steepness[j] = std::min(half[j] * unit[j] / probe->GetBlendDistance(), SharpestEdge);
       steepest = std::max(steepest, steepness[j]);
     }
     const bool isBall = shape == IBL_PROXY_BALL;

@@ -69,6 +69,7 @@ private:
   struct Entry;
   struct Use; // of an element, for one actor
 
+  void Forget(Entry& entry); // its light
   bool Take(int& element);
   bool Begin(const Scene& scene, Entry& entry);
   void Step(const Scene& scene, Entry& entry, bool cutUp);
@@ -78,7 +79,8 @@ private:
   std::array<vtkIBLStamp, 6> StampFaces(const Scene& scene, vtkIBLProbe* probe);
 
   vtkIBLProbeAtlas Atlas;
-  std::vector<Entry> Entries; // in the collection's order
+  std::vector<Entry> Entries;      // in the collection's order...
+  vtkMTimeType CollectionTime = 0; // ... as of then
   const vtkIBLProbe* Wanted = nullptr;
   vtkIBLStatistics* Statistics = nullptr; // while Update() runs
   std::vector<vtkIBLStamp> PropStamps;    // of what is captured, while it is known not to have changed

@@ -363,13 +363,9 @@ void vtkIBLRenderPass::Render(const vtkRenderState* state)
   vtkOpenGLState::ScopedglEnableDisable seamless(window->GetState(), GL_TEXTURE_CUBE_MAP_SEAMLESS);
   window->GetState()->vtkglEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
   {
-    for (vtkProp* prop : captured)
-    {
-      if (std::find(props.begin(), props.end(), prop) == props.end())
-      {
-        props.push_back(prop);
-      }
-    }
+    props.insert(props.end(), captured.begin(), captured.end());
+    std::sort(props.begin(), props.end());
+    props.erase(std::unique(props.begin(), props.end()), props.end());
     const MarkedProps marked(props, this);
     const StandInLight light(renderer->GetLights(), this->NoLight);
     this->SetShaderState(this->WithoutLights, light.IsOn());
@@ -519,6 +515,10 @@ void vtkIBLRenderPass::UpdateProbes(const vtkRenderState* state, const std::vect
   scene.Draw = [&](vtkCamera* camera, const vtkIBLGL::Framebuffer& target, int size, const std::vector<vtkProp*>& props,
                  bool probes)
   {
+    // Mappers ask the renderer how many lights there are, and that is counted here.
+    this->ClearLights(renderer);
+    this->UpdateLightGeometry(renderer);
+    this->UpdateLights(renderer);
     vtkOpenGLState* gl = scene.Window->GetState();
     const vtkSmartPointer<vtkCamera> own = renderer->GetActiveCamera();
     std::vector<double> intensities;
@@ -545,10 +545,6 @@ void vtkIBLRenderPass::UpdateProbes(const vtkRenderState* state, const std::vect
     }
     vtkIBLGL::CheckErrors("capturing a probe");
   };
-  // Mappers ask the renderer how many lights there are, and that is counted here.
-  this->ClearLights(renderer);
-  this->UpdateLightGeometry(renderer);
-  this->UpdateLights(renderer);
   try
   {
     this->ProbeLight->Update(scene, this->Lighting->GetStatistics());

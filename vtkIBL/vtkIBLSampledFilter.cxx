@@ -19,16 +19,6 @@ constexpr double RoughFrom = 0.4;
 constexpr int LightGrid = 16;
 // Light's mean direction is taken over as many texels a cell, along an edge: a ninth of the lobe that needs it most.
 constexpr int TexelsOfCell = 8;
-
-int CountLevels(int faceSize)
-{
-  int levels = 0;
-  for (; faceSize > 0; faceSize /= 2)
-  {
-    ++levels;
-  }
-  return levels;
-}
 }
 
 long long vtkIBLSampledFilter::Run(vtkOpenGLRenderWindow* window, const vtkIBLGL::Texture& source, double storedScale,
@@ -118,7 +108,7 @@ vtkIBLGL::Texture vtkIBLSampledFilter::MakeSmooth(vtkOpenGLRenderWindow* window,
 {
   using namespace vtkIBLGL;
   const int size = source.GetWidth();
-  const int levels = CountLevels(size);
+  const int levels = CountMipLevels(size);
   Texture smooth = Texture::Cube(window, size, levels, GL_RGBA32F);
   glCopyImageSubData(
     source.Id(), GL_TEXTURE_CUBE_MAP, 0, 0, 0, 0, smooth.Id(), GL_TEXTURE_CUBE_MAP, 0, 0, 0, 0, size, size, 6);

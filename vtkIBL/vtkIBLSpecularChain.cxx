@@ -346,10 +346,8 @@ std::vector<vtkIBLStatistics::Work> vtkIBLSpecularChain::Build(vtkOpenGLRenderWi
     const int levels = out.Ladder.GetNumberOfLevels();
     out.Odd = Texture::Cube(window, out.Ladder.FaceSize, levels, GL_RGBA16F);
     out.Even = Texture::Cube(window, out.Ladder.EvenFaceSize, levels, GL_RGBA16F);
-    for (const Texture* layers : { &out.Odd, &out.Even }) // read at whole levels
-    {
-      glTextureParameteri(layers->Id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
-    }
+    out.Odd.ReadWholeLevels();
+    out.Even.ReadWholeLevels();
     // So small a map is in floats where it is uploaded: llvmpipe reads them faster than halves.
     out.IrradianceMap = Texture::Cube(window, IrradianceFaceSize, 1, out.Engine == Spectral ? GL_RGBA32F : GL_RGBA16F);
     // A matt surface reads a layer that nobody made, times 0; what a new texture holds may be NaN.
